@@ -1,0 +1,144 @@
+//! The eye: where it is, what it sees, and the one projection everything shares.
+
+use glam::{DMat4, DVec3};
+use thiserror::Error;
+
+use crate::scene::{Pose, Scene};
+use crate::settings::{CameraChoice, Settings};
+
+/// A perspective eye in world space.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Camera {
+    /// Metres.
+    pub eye: DVec3,
+    /// Unit, where it looks.
+    pub forward: DVec3,
+    /// Unit, square to `forward`.
+    pub up: DVec3,
+    /// Full vertical angle, radians, in (0, pi).
+    pub vertical_fov: f64,
+    /// Width over height.
+    pub aspect: f64,
+    /// Distance of the near plane, metres.
+    pub near: f64,
+    /// How far along `forward` the point of interest lies, metres: what an orbit turns about.
+    pub focus_distance: f64,
+}
+
+/// Why there is no such camera.
+#[derive(Debug, Error, PartialEq)]
+pub enum CameraError {
+    /// No such name, and no such index.
+    #[error("no camera `{0}` in this scene; it has: {1}")]
+    Unknown(String, String),
+    /// A coordinate is NaN or infinite, or the eye is the target.
+    #[error("the camera's {0}")]
+    Degenerate(&'static str),
+    /// The angle is outside (0, 180) degrees.
+    #[error("the field of view must lie between 0 and 180 degrees, not {0}")]
+    FieldOfView(f64),
+}
+
+/// The near plane of cameras that do not say, metres.
+pub const DEFAULT_NEAR: f64 = 0.1;
+
+impl Camera {
+    /// The camera that `settings` ask for, in `scene` as posed, for a picture of `settings.size`.
+    ///
+    /// # Errors
+    /// An unknown camera, coordinates that are no place, an angle out of range.
+    pub fn choose(settings: &Settings, scene: &Scene, pose: &Pose) -> Result<Self, CameraError> {
+        let aspect = f64::from(settings.size[0].max(1)) / f64::from(settings.size[1].max(1));
+        let mut camera = match &settings.camera {
+            CameraChoice::First => Self::of_scene(scene, pose, 0, aspect),
+            CameraChoice::Named(name) => {
+                let index = scene
+                    .cameras
+                    .iter()
+                    .position(|camera| camera.name == *name)
+                    .or_else(|| name.parse().ok().filter(|index| *index < scene.cameras.len()))
+                    .ok_or_else(|| {
+                        let names: Vec<_> = scene.cameras.iter().map(|camera| camera.name.as_str()).collect();
+                        CameraError::Unknown(name.clone(), names.join(", "))
+                    })?;
+                Self::of_scene(scene, pose, index, aspect)
+            }
+            CameraChoice::Free { eye, target } => {
+                let first = Self::of_scene(scene, pose, 0, aspect);
+                Self::look_at(*eye, *target, first.vertical_fov, aspect, first.near)?
+            }
+        };
+        if let Some(degrees) = settings.fov {
+            if !(degrees > 0.0 && degrees < 180.0) {
+                return Err(CameraError::FieldOfView(degrees));
+            }
+            camera.vertical_fov = degrees.to_radians();
+        }
+        Ok(camera)
+    }
+
+    /// From `eye` towards `target`, upright.
+    ///
+    /// # Errors
+    /// Coordinates that are NaN, infinite or the same point.
+    pub fn look_at(eye: DVec3, target: DVec3, vertical_fov: f64, aspect: f64, near: f64) -> Result<Self, CameraError> {
+        if !eye.is_finite() || !target.is_finite() {
+            return Err(CameraError::Degenerate("coordinates must be finite numbers"));
+        }
+        let forward = (target - eye).try_normalize().ok_or(CameraError::Degenerate("eye and target are the same point"))?;
+        let right = forward.cross(DVec3::Y).try_normalize().unwrap_or_else(|| forward.cross(DVec3::NEG_Z).normalize());
+        let up = right.cross(forward);
+        Ok(Self { eye, forward, up, vertical_fov, aspect, near, focus_distance: eye.distance(target) })
+    }
+
+    fn of_scene(scene: &Scene, pose: &Pose, index: usize, aspect: f64) -> Self {
+        let fallback = Self {
+            eye: DVec3::new(4.0, 3.0, 6.0),
+            forward: DVec3::new(-4.0, -3.0, -6.0).normalize(),
+            up: DVec3::Y,
+            vertical_fov: 50f64.to_radians(),
+            aspect,
+            near: DEFAULT_NEAR,
+            focus_distance: 8.0,
+        };
+        let Some(camera) = scene.cameras.get(index) else { return fallback };
+        let Some(world_from_node) = pose.world_from_node.get(camera.node) else { return fallback };
+        let eye = world_from_node.translation;
+        let axis = |v: DVec3| world_from_node.transform_vector3(v).try_normalize();
+        let (Some(forward), Some(up)) = (axis(DVec3::NEG_Z), axis(DVec3::Y)) else { return fallback };
+        let Some(right) = forward.cross(up).try_normalize() else { return fallback };
+        Self {
+            eye,
+            forward,
+            up: right.cross(forward),
+            vertical_fov: camera.vertical_fov,
+            aspect,
+            near: camera.near,
+            focus_distance: camera.focus_distance,
+        }
+    }
+
+    /// The point of interest, world space.
+    #[must_use]
+    pub fn target(&self) -> DVec3 {
+        self.eye + self.forward * self.focus_distance
+    }
+
+    /// View space: the eye at the origin, looking along -Z.
+    #[must_use]
+    pub fn view_from_world(&self) -> DMat4 {
+        glam::dcamera::rh::view::look_to_mat4(self.eye, self.forward, self.up)
+    }
+
+    /// Reverse-Z with infinite far: near maps to depth 1, infinity to 0 (DESIGN section 3).
+    #[must_use]
+    pub fn clip_from_view(&self) -> DMat4 {
+        glam::dcamera::rh::proj::directx::perspective_infinite_reverse(self.vertical_fov, self.aspect, self.near)
+    }
+
+    /// What every vertex shader's matrices are made from.
+    #[must_use]
+    pub fn clip_from_world(&self) -> DMat4 {
+        self.clip_from_view() * self.view_from_world()
+    }
+}

@@ -1,0 +1,2 @@
+//! Obscura.
+fn main() {}

@@ -1,0 +1,1 @@
+//! Import of glTF and GLB files.

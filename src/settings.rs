@@ -1,0 +1,207 @@
+//! Everything a user can choose, as plain data.
+//!
+//! The panel edits a [`Settings`], the command line fills one, tests build one; it knows neither
+//! wgpu nor egui, and nothing flows back into it from the renderer.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use glam::{DVec3, Vec3};
+use serde::{Deserialize, Serialize};
+
+use crate::scene::AnimationChoice;
+
+/// The whole choice: which scene, seen from where, drawn how.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// What is drawn.
+    pub scene: SceneChoice,
+    /// Adds a floor beneath a file's scene.
+    pub floor: bool,
+    /// How shadows are counted.
+    pub technique: Technique,
+    /// What is shown of it.
+    pub show: Show,
+    /// The light that `stencil`, `shadow` and `volumes` look at.
+    pub light: usize,
+    /// Pixels: 1 to [`MAX_SIZE`] a side. The window's own size wins there.
+    pub size: [u32; 2],
+    /// Per pixel, 1 or 4.
+    pub samples: u32,
+    /// Where from.
+    pub camera: CameraChoice,
+    /// Full vertical angle, degrees, instead of the camera's own.
+    pub fov: Option<f64>,
+    /// Seconds into the animation.
+    pub time: f64,
+    /// Which animations play.
+    pub animation: Option<AnimationChoice>,
+    /// Diffuse light reaches zero before any facet turns away, so that smooth-shaded meshes show
+    /// no faceted shadow edge at the terminator.
+    pub smooth_terminator: bool,
+    /// Stops added to the scene's own exposure.
+    pub exposure: f32,
+    /// What was changed of the scene's lights, by light index.
+    pub lights: BTreeMap<usize, LightEdit>,
+    /// Part of the name of the adapter to use.
+    pub adapter: Option<String>,
+    /// Shaders are read from here instead of the program, and again when they change.
+    pub shaders: Option<PathBuf>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            scene: SceneChoice::default(),
+            floor: false,
+            technique: Technique::default(),
+            show: Show::default(),
+            light: 0,
+            size: [1280, 720],
+            samples: 1,
+            camera: CameraChoice::default(),
+            fov: None,
+            time: 0.0,
+            animation: None,
+            smooth_terminator: true,
+            exposure: 0.0,
+            lights: BTreeMap::new(),
+            adapter: None,
+            shaders: None,
+        }
+    }
+}
+
+/// The longest side of a picture, pixels: what every device of the last decade can draw into.
+pub const MAX_SIZE: u32 = 8192;
+
+/// Which scene.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SceneChoice {
+    /// One of [`crate::scene::stock`], by name.
+    Stock(String),
+    /// A glTF or GLB file.
+    File(PathBuf),
+}
+
+impl Default for SceneChoice {
+    fn default() -> Self {
+        Self::Stock("courtyard".into())
+    }
+}
+
+/// Where the scene is seen from.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CameraChoice {
+    /// The scene's first camera.
+    #[default]
+    First,
+    /// By name, or by index where no camera has that name.
+    Named(String),
+    /// Anywhere.
+    Free {
+        /// Metres, world space.
+        eye: DVec3,
+        /// What is looked at, metres, world space; not the eye itself.
+        target: DVec3,
+    },
+}
+
+/// What was changed of one light.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct LightEdit {
+    /// World space metres; it then no longer follows its node.
+    pub position: Option<DVec3>,
+    /// Linear RGB.
+    pub color: Option<Vec3>,
+    /// Candela, or lux for directional lights.
+    pub intensity: Option<f32>,
+    /// Metres.
+    pub range: Option<f32>,
+    /// Shines at all.
+    pub on: Option<bool>,
+    /// Casts shadows.
+    pub shadows: Option<bool>,
+}
+
+/// How shadows are counted. [`crate::techniques::TABLE`] describes each.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Technique {
+    /// No shadows.
+    None,
+    /// Heidmann's: counts volume faces before the surface.
+    ZPass,
+    /// Carmack's reverse: counts volume faces behind the surface, caps and all.
+    #[default]
+    ZFail,
+    /// Sides only, counted from the eye's own count, exact at the near plane.
+    ExactZPass,
+}
+
+/// What is shown.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Show {
+    /// The lit picture.
+    #[default]
+    Final,
+    /// One light's stencil count in false colour, with a legend.
+    Stencil,
+    /// One light's verdict, exact: white lit, black in shadow, mid-grey where there is no surface
+    /// or the light's range ends before it.
+    Shadow,
+    /// The picture with one light's shadow volumes drawn over it.
+    Volumes,
+    /// The picture with every triangle's edges.
+    Wireframe,
+}
+
+impl Technique {
+    /// Every technique, in the order people see them.
+    pub const ALL: [Self; 4] = [Self::None, Self::ZPass, Self::ZFail, Self::ExactZPass];
+
+    /// The name on the command line and in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::ZPass => "z-pass",
+            Self::ZFail => "z-fail",
+            Self::ExactZPass => "exact-z-pass",
+        }
+    }
+}
+
+impl Show {
+    /// Everything that can be shown, in the order people see them.
+    pub const ALL: [Self; 5] = [Self::Final, Self::Stencil, Self::Shadow, Self::Volumes, Self::Wireframe];
+
+    /// The name on the command line and in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Final => "final",
+            Self::Stencil => "stencil",
+            Self::Shadow => "shadow",
+            Self::Volumes => "volumes",
+            Self::Wireframe => "wireframe",
+        }
+    }
+
+    /// One sentence for help and panel.
+    #[must_use]
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Final => "the lit picture",
+            Self::Stencil => "one light's stencil count in false colour, with a legend",
+            Self::Shadow => "one light's verdict, exact: white lit, black in shadow, grey out of range or no surface",
+            Self::Volumes => "one light's shadow volumes drawn over the picture",
+            Self::Wireframe => "every triangle's edges drawn over the picture",
+        }
+    }
+}
