@@ -3,6 +3,8 @@
 pub mod bounds;
 pub mod terminator;
 pub mod topology;
+pub mod weld;
 
 pub use bounds::Aabb;
-pub use topology::Topology;
+pub use topology::{Topology, TopologyReport};
+pub use weld::Weld;

@@ -14,7 +14,7 @@ pub mod pose;
 pub mod stock;
 
 pub use animation::{Animation, AnimationChoice, Channel, Interpolation, Property};
-pub use mesh::{Mesh, MorphTarget, Primitive, SkinVertex};
+pub use mesh::{Mesh, MeshError, MeshParts, MorphTarget, Primitive, SkinVertex};
 pub use pose::{DeformedMesh, Pose, PosedLight};
 
 use glam::{DAffine3, DQuat, DVec3, Vec3, Vec4};
