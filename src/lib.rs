@@ -1,5 +1,6 @@
 //! Obscura: the architecture page is written as the parts land.
 
+pub mod app;
 pub mod frame;
 pub mod geometry;
 pub mod scene;

@@ -1,0 +1,12 @@
+//! The window: a winit loop around the same settings, scene, plan and renderer that the headless
+//! commands use.
+//!
+//! - [`surface`] decides what to do about the window's surface, without a GPU;
+//! - [`control`], [`keys`] and [`clock`] turn input into settings;
+//! - [`store`] keeps settings between runs.
+
+pub mod clock;
+pub mod control;
+pub mod keys;
+pub mod store;
+pub mod surface;
