@@ -1,10 +1,14 @@
 //! Pure math, no GPU and no scene: bounds, frusta, mesh topology, silhouettes, shadow volumes.
 
 pub mod bounds;
+pub mod silhouette;
 pub mod terminator;
 pub mod topology;
+pub mod volume;
 pub mod weld;
 
 pub use bounds::Aabb;
+pub use silhouette::{Facing, Planes};
 pub use topology::{Topology, TopologyReport};
+pub use volume::{Caster, VolumeIndices, VolumeParts, VolumeScratch};
 pub use weld::Weld;

@@ -19,9 +19,9 @@ use serde::Serialize;
 
 use super::Weld;
 
-/// Most triangles and vertices a topology numbers: a triangle and its sign share 32 bits, and a
-/// volume's extruded vertices double the vertex numbers.
-pub const LARGEST: usize = 1 << 30;
+/// Most vertices, and most indices, of a mesh. A volume has up to eight indices for each index of
+/// its mesh, and for several lights they stand in one buffer: all are to be numbered by 32 bits.
+pub const LARGEST: usize = 1 << 26;
 
 /// The welded triangles and edges of a mesh.
 #[derive(Debug, Clone, Default)]
@@ -106,7 +106,7 @@ impl Topology {
     /// by `weld`. `casts` says of a triangle, by its number in `indices`, whether it casts a
     /// shadow; the others are left out.
     ///
-    /// At most [`LARGEST`] vertices and triangles.
+    /// At most [`LARGEST`] positions and indices.
     #[must_use]
     pub fn build(indices: &[u32], positions: &[Vec3], weld: Weld, casts: impl Fn(u32) -> bool) -> Self {
         let mut topology = Self { weld, ..Self::default() };

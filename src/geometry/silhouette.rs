@@ -1,0 +1,120 @@
+//! Which triangles face a light, and the edges where that changes.
+//!
+//! All of it happens in the caster's object space: the light comes to the mesh, not the mesh to
+//! the light (M section 6). A light is four numbers: a point (x y z 1), or the direction *towards*
+//! a directional light (x y z 0).
+//!
+//! Facing is decided **once** a triangle, and everything else (silhouette, caps, the count of
+//! volumes that hold the eye) reads that decision. A triangle seen edge-on may be decided either
+//! way by rounding; because nobody asks twice, the volume is closed whatever the answer.
+
+use glam::{Vec3, Vec4};
+
+use super::Topology;
+
+/// The planes of a topology's triangles for one pose, as arrays, so that deciding who faces a
+/// light is one straight loop.
+#[derive(Debug, Clone, Default)]
+pub struct Planes {
+    x: Vec<f32>,
+    y: Vec<f32>,
+    z: Vec<f32>,
+    offset: Vec<f32>,
+}
+
+impl Planes {
+    /// The planes of `topology` posed as `welded` (one position a welded vertex). They are not
+    /// normalised: only the sign is used. Reuses the arrays.
+    pub fn build(&mut self, topology: &Topology, welded: &[Vec3]) {
+        for array in [&mut self.x, &mut self.y, &mut self.z, &mut self.offset] {
+            array.clear();
+            array.reserve(topology.triangles().len());
+        }
+        for triangle in topology.triangles() {
+            // In double precision: rounded once, at the end, slivers keep their direction.
+            let [a, b, c] = triangle.map(|vertex| welded[vertex as usize].as_dvec3());
+            let normal = (b - a).cross(c - a);
+            self.x.push(normal.x as f32);
+            self.y.push(normal.y as f32);
+            self.z.push(normal.z as f32);
+            self.offset.push(-normal.dot(a) as f32);
+        }
+    }
+
+    /// Of how many triangles.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Of none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+}
+
+/// What each triangle adds to the volume: +1 as it is, 0 nothing, -1 turned round.
+#[derive(Debug, Clone, Default)]
+pub struct Facing {
+    contributions: Vec<i8>,
+}
+
+impl Facing {
+    /// Decides for a light: +1 for triangles that face it; of those that do not, 0 in solid
+    /// components and -1 in the soup. A triangle without area faces nothing. Reuses the array.
+    ///
+    /// ```text
+    ///     light *        solid: +1 0        soup: +1 -1
+    ///            \       ____               ____
+    ///             v     | +1 |              +1
+    ///                   |____| 0             ____ -1 (its back to the light)
+    /// ```
+    pub fn decide(&mut self, topology: &Topology, planes: &Planes, light: Vec4) {
+        let contribution = |x: f32, y: f32, z: f32, offset: f32, two_sided: bool| {
+            let facing = x * light.x + y * light.y + z * light.z + offset * light.w > 0.0;
+            i8::from(facing) - i8::from(two_sided & !facing)
+        };
+        let soup = topology.two_sided();
+        let count = soup.len().min(planes.len());
+        // Slices of one length, so that the loop has no checks in it and runs several at a time.
+        let (x, y, z, offset) = (&planes.x[..count], &planes.y[..count], &planes.z[..count], &planes.offset[..count]);
+        let soup = &soup[..count];
+        self.contributions.resize(count, 0);
+        for (at, out) in self.contributions.iter_mut().enumerate() {
+            *out = contribution(x[at], y[at], z[at], offset[at], soup[at]);
+        }
+    }
+
+    /// One per triangle of the topology.
+    #[must_use]
+    pub fn contributions(&self) -> &[i8] {
+        &self.contributions
+    }
+}
+
+/// The silhouette into `edges` (cleared first): directed edges `[a, b]` of welded vertices, such
+/// that the lit side's triangle, counter-clockwise seen from the light, runs a -> b. An edge whose
+/// triangles add up to m stands there |m| times.
+pub fn silhouette(topology: &Topology, facing: &Facing, edges: &mut Vec<[u32; 2]>) {
+    edges.clear();
+    let contributions = facing.contributions();
+    let pairs = topology.pairs();
+    let count = pairs.a.len();
+    let (forward, backward) = (&pairs.forward[..count], &pairs.backward[..count]);
+    for at in 0..count {
+        let change = i32::from(contributions[forward[at] as usize]) - i32::from(contributions[backward[at] as usize]);
+        if change != 0 {
+            repeat(edges, [pairs.a[at], pairs.b[at]], change);
+        }
+    }
+    for (ends, incidences) in topology.others().iter() {
+        let sum = incidences.map(|(triangle, sign)| sign * i32::from(contributions[triangle as usize])).sum();
+        repeat(edges, ends, sum);
+    }
+}
+
+fn repeat(edges: &mut Vec<[u32; 2]>, [a, b]: [u32; 2], times: i32) {
+    let edge = if times > 0 { [a, b] } else { [b, a] };
+    edges.extend(std::iter::repeat_n(edge, times.unsigned_abs() as usize));
+}

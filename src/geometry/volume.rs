@@ -1,0 +1,189 @@
+//! A caster's shadow volume as indices: sides, light cap and dark cap.
+//!
+//! The vertex buffer holds the V welded vertices twice: v as it is (w = 1), and v' = v + V with
+//! w = 0, which the vertex shader sends from the light to infinity as `p * light.w - light.xyz`
+//! (M section 6). For a directional light all v' are one point. So a volume is nothing but indices.
+//!
+//! ```text
+//!                light *
+//!                     /|\                 light cap: the triangles themselves, kept (+1) or
+//!                    / | \                           turned (-1) to face the light
+//!             a ____/__|__\ b             sides:     (a, a', b') and (a, b', b) for each edge
+//!              /    light  \                         a -> b of the silhouette; a single triangle
+//!             /      cap    \                        (a, a', b) towards a directional light
+//!            /               \            dark cap:  at infinity, facing away; none for a
+//!          a' --- dark cap -- b'                     directional light
+//! ```
+//!
+//! All faces are counter-clockwise seen from outside the volume, but for the *turned* part of the
+//! light cap: it keeps the mesh's own vertex order, because a triangle given in another order
+//! rasterises to depths with other last bits, and the cap must meet the drawn surface exactly.
+//! It is drawn with increment and decrement swapped instead.
+//!
+//! **The dark cap** is a fan over the silhouette, O(s), where everything the light sees of the
+//! caster lies within a half-space about the light; else it is every counted triangle again, O(f).
+//! DESIGN asks that of the silhouette's directions alone, which is too little: a light inside a
+//! room has for a silhouette just the rim of the door, narrow enough, yet the shadow is all
+//! around it. A fan over the rim would cap the lit part instead. So all of the caster's vertices
+//! are asked, in the common case by its box alone.
+
+use std::ops::Range;
+
+use glam::{DVec3, Vec3, Vec4};
+use serde::Serialize;
+
+use super::silhouette::{Facing, Planes, silhouette};
+use super::{Aabb, Topology};
+
+/// A mesh in one pose, as its volumes see it.
+#[derive(Debug, Clone, Copy)]
+pub struct Caster<'a> {
+    /// Of the mesh.
+    pub topology: &'a Topology,
+    /// One position a welded vertex, object space.
+    pub welded: &'a [Vec3],
+    /// Of the same positions.
+    pub planes: &'a Planes,
+    /// Of the same positions.
+    pub bounds: &'a Aabb,
+}
+
+/// Which parts of a volume are wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+pub struct VolumeParts {
+    /// From the silhouette to infinity.
+    pub sides: bool,
+    /// The caster's own counted triangles.
+    pub light_cap: bool,
+    /// At infinity. There is none for directional lights.
+    pub dark_cap: bool,
+}
+
+impl VolumeParts {
+    /// What z-pass counts with.
+    pub const SIDES: Self = Self { sides: true, light_cap: false, dark_cap: false };
+    /// What z-fail counts with.
+    pub const ALL: Self = Self { sides: true, light_cap: true, dark_cap: true };
+}
+
+/// Where a volume's parts stand among the indices. Parts that were not asked for are empty.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct VolumeIndices {
+    /// Counter-clockwise from outside.
+    pub sides: Range<u32>,
+    /// Counter-clockwise from outside, which is the light's side; the mesh's own order.
+    pub light_cap_kept: Range<u32>,
+    /// *Clockwise* from outside: draw with increment and decrement swapped.
+    pub light_cap_turned: Range<u32>,
+    /// Counter-clockwise from outside, which is infinity's side.
+    pub dark_cap: Range<u32>,
+}
+
+impl VolumeIndices {
+    /// In all parts.
+    #[must_use]
+    pub fn triangles(&self) -> u32 {
+        [&self.sides, &self.light_cap_kept, &self.light_cap_turned, &self.dark_cap]
+            .iter()
+            .map(|part| part.len() as u32)
+            .sum::<u32>()
+            / 3
+    }
+}
+
+/// Memory that volumes are built in, kept from one to the next.
+#[derive(Debug, Clone, Default)]
+pub struct VolumeScratch {
+    facing: Facing,
+    edges: Vec<[u32; 2]>,
+}
+
+impl VolumeScratch {
+    /// Who faced the light in the last volume.
+    #[must_use]
+    pub fn facing(&self) -> &Facing {
+        &self.facing
+    }
+
+    /// The silhouette of the last volume that had sides or a dark cap.
+    #[must_use]
+    pub fn silhouette(&self) -> &[[u32; 2]] {
+        &self.edges
+    }
+
+    /// Appends the volume that `caster` and `light` (object space: a point with w = 1, the
+    /// direction towards a directional light with w = 0) span to `indices`, which count
+    /// 2 V vertices: V welded ones, then V extruded.
+    pub fn append(&mut self, caster: Caster, light: Vec4, parts: VolumeParts, indices: &mut Vec<u32>) -> VolumeIndices {
+        let Caster { topology, welded, planes, .. } = caster;
+        self.facing.decide(topology, planes, light);
+        let dark_cap = parts.dark_cap && light.w != 0.0;
+        if parts.sides || dark_cap {
+            silhouette(topology, &self.facing, &mut self.edges);
+        }
+        let extruded = |vertex: u32| vertex + topology.weld().len() as u32;
+
+        let mut ranges = VolumeIndices::default();
+        let mut start = indices.len();
+        let mut since = |indices: &Vec<u32>| {
+            let range = start as u32..indices.len() as u32;
+            start = indices.len();
+            range
+        };
+        if parts.sides {
+            if light.w == 0.0 {
+                indices.extend(self.edges.iter().flat_map(|&[a, b]| [a, extruded(a), b]));
+            } else {
+                indices.extend(self.edges.iter().flat_map(|&[a, b]| [a, extruded(a), extruded(b), a, extruded(b), b]));
+            }
+            ranges.sides = since(indices);
+        }
+        if parts.light_cap {
+            indices.extend(self.counted(topology, 1).flatten());
+            ranges.light_cap_kept = since(indices);
+            indices.extend(self.counted(topology, -1).flatten());
+            ranges.light_cap_turned = since(indices);
+        }
+        if dark_cap {
+            match self.edges.first() {
+                Some(&[pivot, _]) if within_half_space(welded, caster.bounds, light.truncate(), &self.edges) => {
+                    let apart = self.edges.iter().filter(|edge| !edge.contains(&pivot));
+                    indices.extend(apart.flat_map(|&[a, b]| [pivot, b, a]).map(extruded));
+                }
+                _ => {
+                    indices.extend(self.counted(topology, 1).flat_map(|[a, b, c]| [c, b, a]).map(extruded));
+                    indices.extend(self.counted(topology, -1).flatten().map(extruded));
+                }
+            }
+            ranges.dark_cap = since(indices);
+        }
+        ranges
+    }
+
+    fn counted(&self, topology: &Topology, contribution: i8) -> impl Iterator<Item = [u32; 3]> {
+        let counted = topology.triangles().iter().zip(self.facing.contributions());
+        counted.filter(move |(_, counts)| **counts == contribution).map(|(triangle, _)| *triangle)
+    }
+}
+
+/// Every direction from the light to a vertex lies strictly within one half-space, with a margin
+/// wide enough for the rounding of the extruded vertices.
+fn within_half_space(welded: &[Vec3], bounds: &Aabb, light: Vec3, edges: &[[u32; 2]]) -> bool {
+    // The least cosine to the half-space's axis, and the rounding of coordinates.
+    const MARGIN: f64 = 1e-3;
+    const ROUNDING: f64 = 1e-6;
+    let light = light.as_dvec3();
+    let reach = light.abs().max_element().max(bounds.min.abs().max(bounds.max.abs()).max_element().into());
+    let distance = bounds.distance_to(light);
+    if distance > MARGIN * (distance + 2.0 * f64::from(bounds.radius())) + ROUNDING * reach {
+        return true;
+    }
+    // Within the box there may still be a half-space, about the silhouette's mean direction.
+    let towards = |vertex: Vec3| vertex.as_dvec3() - light;
+    let sum: DVec3 = edges.iter().map(|edge| towards(welded[edge[0] as usize]).normalize_or_zero()).sum();
+    let Some(axis) = sum.try_normalize() else { return false };
+    welded.iter().all(|&vertex| {
+        let direction = towards(vertex);
+        direction.dot(axis) > MARGIN * direction.length() + ROUNDING * reach
+    })
+}
