@@ -43,7 +43,7 @@ has_vulkan() {
         esac
         case "$library" in *lvp* | *swiftshader*) return 0 ;; esac
         if compgen -G '/dev/dri/renderD*' >/dev/null || [ -e /dev/nvidia0 ] || [ -e /dev/dxg ]; then return 0; fi
-    done < <(vulkan_manifests)
+    done <<<"$(vulkan_manifests)"
     return 1
 }
 
