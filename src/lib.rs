@@ -3,5 +3,6 @@
 pub mod app;
 pub mod frame;
 pub mod geometry;
+pub mod headless;
 pub mod scene;
 pub mod settings;
