@@ -1,0 +1,135 @@
+//! Shadow volumes of random solids and random soups: closed, and counting what they should.
+#![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
+
+mod shapes;
+
+use std::collections::BTreeMap;
+
+use glam::{DVec3, Vec4};
+use obscura::geometry::{VolumeParts, VolumeScratch};
+use proptest::prelude::*;
+use shapes::{Shape, cube, light, place, shape, solid, torus};
+
+/// Directed edges that no other edge cancels. Extruded vertices are one for a directional light.
+fn unbalanced(boundary: &[[u32; 3]], vertices: u32, light: Vec4) -> usize {
+    let mut sums = BTreeMap::new();
+    let place = |vertex: u32| if light.w == 0.0 { vertex.min(vertices) } else { vertex };
+    for [a, b, c] in boundary {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let (from, to) = (place(*from), place(*to));
+            *sums.entry((from.min(to), from.max(to))).or_insert(0) += i32::from(from < to) - i32::from(from > to);
+        }
+    }
+    sums.values().filter(|sum| **sum != 0).count()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_solids_are_solid(shape in solid()) {
+        prop_assert!(shape.mesh.topology.report().is_solid(), "{:?}", shape.mesh.topology.report());
+    }
+
+    #[test]
+    fn volumes_are_closed(shape in shape(), light in light()) {
+        let boundary = shape.boundary(&shape.volume(light, VolumeParts::ALL));
+        prop_assert_eq!(unbalanced(&boundary, shape.welded.len() as u32, light), 0);
+    }
+
+    #[test]
+    fn volumes_wind_around_a_point_once_for_each_triangle_before_it(
+        shape in shape(), light in light(), points in prop::collection::vec(place(), 8),
+    ) {
+        let volume = shape.volume(light, VolumeParts::ALL);
+        let boundary = shape.boundary(&volume);
+        for point in points {
+            let point = point.as_dvec3();
+            let winding = shape.winding(&boundary, light, point);
+            let expected = shape.crossed(volume.scratch.facing(), light, point);
+            prop_assert!((winding - f64::from(expected)).abs() < 1e-3, "{winding} around {point}, but {expected} crossed");
+        }
+    }
+}
+
+/// The number of silhouette edges of the cube, whose faces' diagonals never are any.
+fn cube_silhouette(light: Vec4) -> usize {
+    let shape = Shape::new(cube());
+    let volume = shape.volume(light, VolumeParts::ALL);
+    let edges = volume.scratch.silhouette().len();
+    let a_side = if light.w == 0.0 { 3 } else { 6 };
+    assert_eq!(volume.ranges.sides.len(), edges * a_side);
+    // The pivot's two edges need no triangle.
+    let dark = if light.w == 0.0 || edges == 0 { 0 } else { (edges - 2) * 3 };
+    assert_eq!(volume.ranges.dark_cap.len(), dark);
+    edges
+}
+
+#[test]
+fn a_cube_has_the_silhouettes_one_knows() {
+    assert_eq!(cube_silhouette(Vec4::new(0.2, 5.0, -0.1, 1.0)), 4, "one face seen");
+    assert_eq!(cube_silhouette(Vec4::new(3.0, 5.0, -0.1, 1.0)), 6, "two faces seen");
+    assert_eq!(cube_silhouette(Vec4::new(3.0, 5.0, -7.0, 1.0)), 6, "three faces seen");
+    assert_eq!(cube_silhouette(Vec4::new(1.0, 1.0, -1.0, 0.0)), 6, "from a corner, infinitely far");
+    assert_eq!(cube_silhouette(Vec4::new(0.0, 1.0, 0.0, 0.0)), 4, "straight from above, infinitely far");
+    assert_eq!(cube_silhouette(Vec4::new(0.1, 0.2, 0.3, 1.0)), 0, "from inside no face is seen");
+}
+
+#[test]
+fn parts_are_appended_and_only_those_asked_for() {
+    let shape = Shape::new(cube());
+    let light = Vec4::new(3.0, 5.0, -7.0, 1.0);
+    let (mut indices, mut scratch) = (vec![7, 7, 7], VolumeScratch::default());
+    let sides = scratch.append(shape.caster(), light, VolumeParts::SIDES, &mut indices);
+    assert_eq!((sides.sides.clone(), sides.triangles()), (3..39, 12));
+    assert!(sides.light_cap_kept.is_empty() && sides.light_cap_turned.is_empty() && sides.dark_cap.is_empty());
+    let all = scratch.append(shape.caster(), light, VolumeParts::ALL, &mut indices);
+    assert_eq!((all.sides, all.light_cap_kept, all.dark_cap), (39..75, 75..93, 93..105));
+    assert_eq!(indices[3..39], indices[39..75]);
+    assert_eq!(indices.len(), 105);
+}
+
+#[test]
+fn a_light_in_a_room_casts_its_shadow_all_around_though_the_door_is_narrow() {
+    // A cube seen from inside, one triangle of it missing.
+    let (positions, mut indices) = cube();
+    indices.truncate(33);
+    let shape = Shape::new((positions, indices));
+    let light = Vec4::new(0.1, 0.0, 0.05, 1.0);
+    let volume = shape.volume(light, VolumeParts::ALL);
+    assert_eq!(volume.scratch.silhouette().len(), 3);
+    assert_eq!(volume.ranges.light_cap_turned.len(), 33, "every wall has its back to the light");
+    assert_eq!(volume.ranges.dark_cap.len(), 33, "no fan");
+    let boundary = shape.boundary(&volume);
+    let behind_a_wall = shape.winding(&boundary, light, DVec3::new(-4.0, 0.3, 0.2));
+    let beyond_the_door = shape.winding(&boundary, light, DVec3::new(4.0, -0.9, 1.1));
+    assert!((behind_a_wall - 1.0).abs() < 1e-6 && beyond_the_door.abs() < 1e-6, "{behind_a_wall} {beyond_the_door}");
+}
+
+#[test]
+fn a_fan_caps_what_all_triangles_would() {
+    let shape = Shape::new(torus(9, 7, |_| 0.0));
+    let light = Vec4::new(0.4, 3.0, 0.2, 1.0);
+    let volume = shape.volume(light, VolumeParts::ALL);
+    let lit = volume.scratch.facing().contributions().iter().filter(|counts| **counts == 1).count();
+    assert!(volume.ranges.dark_cap.len() < lit * 3, "a fan is the smaller one");
+    let mut boundary = shape.boundary(&volume);
+    let fan: Vec<f64> = (0..40).map(|at| shape.winding(&boundary, light, sample(at))).collect();
+    // The same volume with every lit triangle for a dark cap.
+    boundary.truncate(boundary.len() - volume.ranges.dark_cap.len() / 3);
+    let counted = shape.mesh.topology.triangles().iter().zip(volume.scratch.facing().contributions());
+    for (triangle, _) in counted.filter(|(_, counts)| **counts == 1) {
+        let [a, b, c] = triangle.map(|vertex| vertex + shape.welded.len() as u32);
+        boundary.push([c, b, a]);
+    }
+    for (at, fan) in fan.iter().enumerate() {
+        assert!((fan - shape.winding(&boundary, light, sample(at))).abs() < 1e-9);
+    }
+    assert!(fan.iter().any(|winding| *winding > 0.5) && fan.iter().any(|winding| *winding < 0.5));
+}
+
+/// Points all over the neighbourhood, the same every time.
+fn sample(at: usize) -> DVec3 {
+    let spread = |step: f64| (at as f64 * step).fract() * 4.0 - 2.0;
+    DVec3::new(spread(0.618_034), spread(0.754_878), spread(0.569_840))
+}
