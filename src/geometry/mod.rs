@@ -8,7 +8,7 @@ pub mod volume;
 pub mod weld;
 
 pub use bounds::Aabb;
-pub use silhouette::{Facing, Planes};
+pub use silhouette::{Facing, Planes, light_in_object};
 pub use topology::{Topology, TopologyReport};
 pub use volume::{Caster, VolumeIndices, VolumeParts, VolumeScratch};
 pub use weld::Weld;

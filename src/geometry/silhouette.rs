@@ -8,9 +8,22 @@
 //! volumes that hold the eye) reads that decision. A triangle seen edge-on may be decided either
 //! way by rounding; because nobody asks twice, the volume is closed whatever the answer.
 
-use glam::{Vec3, Vec4};
+use glam::{DAffine3, DVec3, DVec4, Vec3, Vec4};
 
 use super::Topology;
+
+/// A light of world space (a point with w = 1, or the direction towards it with w = 0) in the
+/// space of an object whose transform has an inverse. Directions come out unit.
+#[must_use]
+pub fn light_in_object(world_from_object: &DAffine3, light: impl Into<DVec4>) -> DVec4 {
+    let light = light.into();
+    let object_from_world = world_from_object.inverse();
+    if light.w == 0.0 {
+        object_from_world.transform_vector3(light.truncate()).normalize_or(DVec3::Y).extend(0.0)
+    } else {
+        object_from_world.transform_point3(light.truncate() / light.w).extend(1.0)
+    }
+}
 
 /// The planes of a topology's triangles for one pose, as arrays, so that deciding who faces a
 /// light is one straight loop.

@@ -7,6 +7,7 @@
 //! Stock scenes ([`stock`]) and users' files ([`gltf`]) arrive by the same importer.
 
 pub mod animation;
+mod deform;
 pub mod doctor;
 pub mod gltf;
 pub mod mesh;
