@@ -1,0 +1,282 @@
+//! What a scene needs to be seen and a file may leave out: light, a camera, an exposure, a floor.
+
+use std::f64::consts::PI;
+
+use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3, Vec4};
+
+use super::error::{Problem, part};
+use crate::geometry::Aabb;
+use crate::scene::mesh::MeshParts;
+use crate::scene::{
+    Camera, Environment, Light, LightKind, Material, Mesh, Node, Pose, Primitive, Scene, Texture, Transform, Wrap,
+};
+
+/// Metres from the origin, and in size: beyond, single-precision arithmetic on squares of lengths ends.
+const FARTHEST: f64 = 1e12;
+/// Where the scene is looked at from and lit from, seen from its middle.
+const CAMERA_SIDE: DVec3 = DVec3::new(0.55, 0.42, 1.0);
+const KEY_SIDE: DVec3 = DVec3::new(0.55, 0.9, 0.6);
+const FILL_SIDE: DVec3 = DVec3::new(-0.8, 0.6, 0.35);
+/// The irradiance that looks well lit at exposure 1: a white surface then shines with 0.8 of white.
+const GOOD_IRRADIANCE: f64 = 0.8 * PI;
+/// An exposure beyond these is a mistake in the file, not a bright lamp.
+const EXPOSURES: (f64, f64) = (1e-8, 1e6);
+
+/// Fills in what is missing. `heights` are what orthographic cameras see, half.
+pub(super) fn complete(scene: &mut Scene, heights: &[Option<f64>]) -> Result<(), Problem> {
+    let posed = pose_at(scene, 0.0);
+    let bounds = bounds(scene, &posed)?;
+    let (center, radius) = (bounds.center().as_dvec3(), f64::from(bounds.radius()).max(1e-3));
+    if scene.lights.is_empty() {
+        add_lights(scene, center, radius);
+        scene.exposure = 1.0;
+    } else {
+        scene.exposure = exposure(scene, &posed) as f32;
+        let scale = 1.0 / scene.exposure;
+        let environment = Environment::default();
+        scene.environment = Environment {
+            ambient_sky: environment.ambient_sky * scale,
+            ambient_ground: environment.ambient_ground * scale,
+            background: environment.background.map(|color| color * scale),
+        };
+    }
+    if scene.cameras.is_empty() {
+        add_camera(scene, &bounds, center, radius);
+    }
+    for (camera, height) in scene.cameras.iter_mut().zip(heights) {
+        let Some(world_from_node) = posed.world_from_node.get(camera.node) else { continue };
+        let to_center = center - world_from_node.translation;
+        let forward = world_from_node.transform_vector3(DVec3::NEG_Z).normalize_or_zero();
+        let along = to_center.dot(forward);
+        camera.focus_distance = if along > camera.near { along } else { to_center.length().max(radius).max(2.0 * camera.near) };
+        if let Some(height) = height {
+            camera.vertical_fov = (2.0 * (height / camera.focus_distance).atan()).clamp(5f64.to_radians(), 100f64.to_radians());
+        }
+    }
+    Ok(())
+}
+
+fn pose_at(scene: &Scene, time: f64) -> Pose {
+    let mut world_from_node: Vec<DAffine3> = Vec::new();
+    for node in &scene.nodes {
+        let parent = node.parent.map_or(DAffine3::IDENTITY, |parent| world_from_node[parent]);
+        world_from_node.push(parent * node.local.affine());
+    }
+    let lights = scene.lights.iter().map(|light| crate::scene::PosedLight {
+        position: world_from_node[light.node].translation,
+        direction: world_from_node[light.node].transform_vector3(DVec3::NEG_Z).normalize_or(DVec3::NEG_Y),
+        kind: light.kind,
+        intensity: light.color * light.intensity,
+        range: f64::from(light.range),
+        on: true,
+        shadows: true,
+    });
+    Pose {
+        time,
+        lights: lights.collect(),
+        deformed: vec![None; scene.nodes.len()],
+        world_from_object: world_from_node.clone(),
+        world_from_node,
+    }
+}
+
+/// The box around everything shown, world space.
+fn bounds(scene: &Scene, pose: &Pose) -> Result<Aabb, Problem> {
+    let mut all = Aabb::EMPTY;
+    for (index, node, mesh) in scene.instances() {
+        let deformed = pose.deformed[index].as_ref().map_or(mesh.bounds, |deformed| deformed.bounds);
+        let placed = deformed.transformed(&pose.world_from_object[index]);
+        let near = |corner: Vec3| corner.is_finite() && f64::from(corner.abs().max_element()) <= FARTHEST;
+        let lost = !(near(placed.min) && near(placed.max));
+        if lost && !placed.is_empty() {
+            let what = format!("what it shows lies farther than {FARTHEST:e} m from the origin");
+            return Err(Problem::Part { part: part("the scene's node", index, Some(&node.name)), what });
+        }
+        all = all.union(&placed);
+    }
+    Ok(all)
+}
+
+fn add_node(scene: &mut Scene, name: &str, eye: DVec3, target: DVec3) -> usize {
+    let back = (eye - target).normalize_or(DVec3::Z);
+    let right = DVec3::Y.cross(back).normalize_or(DVec3::X);
+    let rotation = DQuat::from_mat3(&DMat3::from_cols(right, back.cross(right), back)).normalize();
+    let local = Transform::Trs { translation: eye, rotation, scale: DVec3::ONE };
+    scene.nodes.push(Node { name: name.into(), local, ..Node::default() });
+    scene.nodes.len() - 1
+}
+
+/// A warm key light above to the right, which throws the shadows, and a faint cool one from the
+/// other side, so that what it does not reach has a shape too.
+fn add_lights(scene: &mut Scene, center: DVec3, radius: f64) {
+    let distance = 2.4 * radius;
+    let node = add_node(scene, "key light", center + KEY_SIDE.normalize() * distance, center);
+    scene.lights.push(Light {
+        name: "key light".into(),
+        node,
+        kind: LightKind::Point,
+        color: Vec3::new(1.0, 0.95, 0.86),
+        intensity: (GOOD_IRRADIANCE * distance * distance) as f32,
+        range: f32::INFINITY,
+    });
+    let node = add_node(scene, "fill light", center + FILL_SIDE.normalize() * distance, center);
+    scene.lights.push(Light {
+        name: "fill light".into(),
+        node,
+        kind: LightKind::Directional,
+        color: Vec3::new(0.75, 0.86, 1.0),
+        intensity: (0.15 * GOOD_IRRADIANCE) as f32,
+        range: f32::INFINITY,
+    });
+}
+
+/// From the front, a little to the right and above, so that all of the bounds is in view.
+fn add_camera(scene: &mut Scene, bounds: &Aabb, center: DVec3, radius: f64) {
+    let vertical_fov = 45f64.to_radians();
+    let back = CAMERA_SIDE.normalize();
+    let right = DVec3::Y.cross(back).normalize();
+    let up = back.cross(right);
+    let tangent = (0.5 * vertical_fov).tan();
+    let needed = |corner: DVec3| {
+        let offset = corner - center;
+        let sideways = (offset.dot(right).abs() / 1.4).max(offset.dot(up).abs()); // pictures are wider than high
+        offset.dot(back) + sideways / tangent
+    };
+    let distance = bounds.corners().into_iter().map(needed).fold(0.0, f64::max).max(radius) * 1.06;
+    let node = add_node(scene, "camera", center + back * distance, center);
+    // Depth is a 24-bit integer: what the near plane gains, the surfaces far behind it lose.
+    let near = (radius / 200.0).clamp(1e-5, 0.5);
+    scene.cameras.push(Camera { name: "camera".into(), node, vertical_fov, near, focus_distance: distance });
+}
+
+/// Candela values mean what their maker thought a camera would do. So the light is measured, at points
+/// spread over what casts shadows (over everything where nothing does), and the exposure chosen that
+/// takes the median to [`GOOD_IRRADIANCE`]. Of several lights the brightest counts full and the others
+/// half: they seldom shine on the same side of things. Shadows and slants are not looked at.
+fn exposure(scene: &Scene, pose: &Pose) -> f64 {
+    let mut points = sample(scene, pose, true);
+    if points.is_empty() {
+        points = sample(scene, pose, false);
+    }
+    let mut measured: Vec<f64> = points.iter().map(|point| irradiance(pose, *point)).filter(|value| *value > 0.0).collect();
+    measured.sort_by(f64::total_cmp);
+    let brightest = measured.last().copied().unwrap_or(0.0);
+    measured.retain(|value| *value > 1e-3 * brightest); // the unlit backyard does not count
+    match measured.get(measured.len() / 2) {
+        Some(median) => (GOOD_IRRADIANCE / median).clamp(EXPOSURES.0, EXPOSURES.1),
+        None => 1.0,
+    }
+}
+
+fn irradiance(pose: &Pose, point: DVec3) -> f64 {
+    let (mut sum, mut brightest) = (0.0, 0.0f64);
+    for light in &pose.lights {
+        let luminance = light.intensity.as_dvec3().dot(DVec3::new(0.2126, 0.7152, 0.0722));
+        let offset = point - light.position;
+        let distance = offset.length().max(1e-6);
+        let reach = (1.0 - (distance / light.range).powi(4)).clamp(0.0, 1.0);
+        let received = match light.kind {
+            LightKind::Directional => luminance,
+            LightKind::Point => luminance * reach / (distance * distance),
+            LightKind::Spot { outer, .. } => {
+                let inside = offset.dot(light.direction) >= distance * f64::from(outer).cos();
+                if inside { luminance * reach / (distance * distance) } else { 0.0 }
+            }
+        };
+        sum += received;
+        brightest = brightest.max(received);
+    }
+    brightest + 0.5 * (sum - brightest)
+}
+
+/// A few hundred vertices, spread evenly over the instances.
+fn sample(scene: &Scene, pose: &Pose, casters: bool) -> Vec<DVec3> {
+    const POINTS: usize = 1024;
+    let chosen = || scene.instances().filter(|(_, node, _)| node.casts_shadow || !casters);
+    let each = (POINTS / chosen().count().max(1)).max(2);
+    let mut points = Vec::new();
+    for (index, _, mesh) in chosen() {
+        let positions = pose.deformed[index].as_ref().map_or(&mesh.positions, |deformed| &deformed.positions);
+        let step = (positions.len() / each).max(1);
+        let world_from_object: &DAffine3 = &pose.world_from_object[index];
+        points.extend(positions.iter().step_by(step).map(|position| world_from_object.transform_point3(position.as_dvec3())));
+    }
+    points
+}
+
+/// Adds a checkered floor just beneath everything, at any time of its animations, several times as
+/// large. It catches shadows and casts none.
+pub fn add_floor(scene: &mut Scene) {
+    const TIMES: u32 = 12;
+    let longest = scene.animations.iter().map(|animation| animation.duration).fold(0.0, f64::max);
+    let times = if longest > 0.0 { TIMES } else { 1 };
+    let mut all = Aabb::EMPTY;
+    for step in 0..times {
+        // A scene that came through the importer is within bounds at the start; later it may not be.
+        if let Ok(bounds) = bounds(scene, &pose_at(scene, longest * f64::from(step) / f64::from(times))) {
+            all = all.union(&bounds);
+        }
+    }
+    let (center, half) = (all.center(), all.half_size());
+    let radius = all.radius().max(1e-3);
+    let size = 4.0 * half.x.max(half.z).max(0.6 * radius);
+    let tiles = 2.0 * size / (0.35 * radius);
+    let height = if all.is_empty() { 0.0 } else { all.min.y - 2e-3 * radius };
+
+    let texture = scene.textures.len();
+    scene.textures.push(checker());
+    let material = scene.materials.len();
+    scene.materials.push(Material {
+        name: "floor".into(),
+        base_color: Vec4::ONE,
+        base_color_texture: Some(texture),
+        roughness: 0.9,
+        double_sided: true,
+        ..Material::default()
+    });
+    let corners = [Vec2::new(-1.0, -1.0), Vec2::new(-1.0, 1.0), Vec2::new(1.0, 1.0), Vec2::new(1.0, -1.0)];
+    let mesh = Mesh::new(MeshParts {
+        name: "floor".into(),
+        positions: corners.iter().map(|corner| Vec3::new(corner.x * size, 0.0, corner.y * size)).collect(),
+        normals: Some(vec![Vec3::Y; 4]),
+        // The texture is two tiles wide.
+        uvs: Some(corners.iter().map(|corner| *corner * tiles / 4.0).collect()),
+        indices: vec![0, 1, 2, 0, 2, 3],
+        primitives: vec![Primitive { first_index: 0, index_count: 6, material, casts_shadow: true }],
+        ..MeshParts::default()
+    });
+    // Four finite corners are a mesh; were they none, there would be no floor.
+    let Ok(mesh) = mesh else { return };
+    scene.meshes.push(mesh);
+    let translation = Vec3::new(center.x, height, center.z).as_dvec3();
+    scene.nodes.push(Node {
+        name: "floor".into(),
+        local: Transform::Trs { translation, rotation: DQuat::IDENTITY, scale: DVec3::ONE },
+        mesh: Some(scene.meshes.len() - 1),
+        casts_shadow: false,
+        ..Node::default()
+    });
+}
+
+/// Two by two tiles in soft colours, with darker joints.
+fn checker() -> Texture {
+    const SIDE: u32 = 256;
+    let pixel = |at: u32| {
+        let (x, y) = (at % SIDE, at / SIDE);
+        let joint = |v: u32| v % (SIDE / 2) < 2;
+        let light = (x / (SIDE / 2) + y / (SIDE / 2)).is_multiple_of(2);
+        match (joint(x) || joint(y), light) {
+            (true, _) => [150, 146, 140, 255],
+            (_, true) => [214, 208, 198, 255],
+            (_, false) => [178, 180, 184, 255],
+        }
+    };
+    Texture {
+        name: "floor".into(),
+        width: SIDE,
+        height: SIDE,
+        rgba: (0..SIDE * SIDE).flat_map(pixel).collect(),
+        wrap: [Wrap::Repeat; 2],
+        nearest: false,
+    }
+}
