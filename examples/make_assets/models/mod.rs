@@ -1,0 +1,26 @@
+//! Every model file: its name and its bytes. Units are metres, +Y is up, models stand on y = 0.
+
+mod architecture;
+mod figure;
+mod furniture;
+mod glb;
+mod math;
+mod polygon;
+mod skeleton;
+mod solids;
+mod soup;
+mod teapot;
+mod texture;
+
+/// Made anew each time, always the same.
+pub fn all() -> Vec<(&'static str, Vec<u8>)> {
+    vec![
+        ("solids.glb", solids::file()),
+        ("teapot.glb", teapot::file()),
+        ("cutout.glb", solids::cutout()),
+        ("floors.glb", architecture::floors()),
+        ("architecture.glb", architecture::file()),
+        ("furniture.glb", furniture::file()),
+        ("walker.glb", figure::file()),
+    ]
+}
