@@ -11,11 +11,13 @@ mod deform;
 pub mod doctor;
 pub mod gltf;
 pub mod mesh;
+pub mod open;
 pub mod pose;
 pub mod stock;
 
 pub use animation::{Animation, AnimationChoice, Channel, Interpolation, Property};
 pub use mesh::{Mesh, MeshError, MeshParts, MorphTarget, Primitive, SkinVertex};
+pub use open::{Loading, OpenError, load_on_thread, open};
 pub use pose::{DeformedMesh, Pose, PosedLight};
 
 use glam::{DAffine3, DQuat, DVec3, Vec3, Vec4};

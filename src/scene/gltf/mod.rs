@@ -34,6 +34,7 @@ use std::path::Path;
 
 use gltf::json::Root;
 
+pub use super::open::{Loading, load_on_thread};
 pub use error::{AccessorError, ImportError, Problem};
 pub use staging::add_floor;
 

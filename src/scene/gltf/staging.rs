@@ -1,14 +1,15 @@
 //! What a scene needs to be seen and a file may leave out: light, a camera, an exposure, a floor.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3, Vec4};
 
-use super::error::{Problem, part};
+use super::error::{Problem, clip};
 use crate::geometry::Aabb;
 use crate::scene::mesh::MeshParts;
 use crate::scene::{
-    Camera, Environment, Light, LightKind, Material, Mesh, Node, Pose, Primitive, Scene, Texture, Transform, Wrap,
+    Camera, Environment, Light, LightKind, Material, Mesh, Node, Pose, Primitive, Scene, Texture, Transform, Wrap, pose,
 };
 
 /// Metres from the origin, and in size: beyond, single-precision arithmetic on squares of lengths ends.
@@ -57,44 +58,21 @@ pub(super) fn complete(scene: &mut Scene, heights: &[Option<f64>]) -> Result<(),
 }
 
 fn pose_at(scene: &Scene, time: f64) -> Pose {
-    let mut world_from_node: Vec<DAffine3> = Vec::new();
-    for node in &scene.nodes {
-        let parent = node.parent.map_or(DAffine3::IDENTITY, |parent| world_from_node[parent]);
-        world_from_node.push(parent * node.local.affine());
-    }
-    let lights = scene.lights.iter().map(|light| crate::scene::PosedLight {
-        position: world_from_node[light.node].translation,
-        direction: world_from_node[light.node].transform_vector3(DVec3::NEG_Z).normalize_or(DVec3::NEG_Y),
-        kind: light.kind,
-        intensity: light.color * light.intensity,
-        range: f64::from(light.range),
-        on: true,
-        shadows: true,
-    });
-    Pose {
-        time,
-        lights: lights.collect(),
-        deformed: vec![None; scene.nodes.len()],
-        world_from_object: world_from_node.clone(),
-        world_from_node,
-    }
+    pose::pose(scene, time, scene.default_animation, &BTreeMap::new())
 }
 
-/// The box around everything shown, world space.
+/// The box around everything shown, world space; an error where something is nowhere.
 fn bounds(scene: &Scene, pose: &Pose) -> Result<Aabb, Problem> {
-    let mut all = Aabb::EMPTY;
-    for (index, node, mesh) in scene.instances() {
-        let deformed = pose.deformed[index].as_ref().map_or(mesh.bounds, |deformed| deformed.bounds);
-        let placed = deformed.transformed(&pose.world_from_object[index]);
+    for (index, node, _) in scene.instances() {
+        let placed = pose.world_bounds(scene, index);
         let near = |corner: Vec3| corner.is_finite() && f64::from(corner.abs().max_element()) <= FARTHEST;
-        let lost = !(near(placed.min) && near(placed.max));
-        if lost && !placed.is_empty() {
+        let bent = pose.deformed[index].as_ref().is_none_or(|bent| bent.positions.iter().all(|position| position.is_finite()));
+        if !bent || !pose.world_from_object[index].is_finite() || !near(placed.min) || !near(placed.max) {
             let what = format!("what it shows lies farther than {FARTHEST:e} m from the origin");
-            return Err(Problem::Part { part: part("the scene's node", index, Some(&node.name)), what });
+            return Err(Problem::Part { part: format!("node {:?}", clip(&node.name)), what });
         }
-        all = all.union(&placed);
     }
-    Ok(all)
+    Ok(scene.bounds(pose))
 }
 
 fn add_node(scene: &mut Scene, name: &str, eye: DVec3, target: DVec3) -> usize {
@@ -195,8 +173,8 @@ fn sample(scene: &Scene, pose: &Pose, casters: bool) -> Vec<DVec3> {
     let chosen = || scene.instances().filter(|(_, node, _)| node.casts_shadow || !casters);
     let each = (POINTS / chosen().count().max(1)).max(2);
     let mut points = Vec::new();
-    for (index, _, mesh) in chosen() {
-        let positions = pose.deformed[index].as_ref().map_or(&mesh.positions, |deformed| &deformed.positions);
+    for (index, _, _) in chosen() {
+        let positions = pose.positions(scene, index);
         let step = (positions.len() / each).max(1);
         let world_from_object: &DAffine3 = &pose.world_from_object[index];
         points.extend(positions.iter().step_by(step).map(|position| world_from_object.transform_point3(position.as_dvec3())));
