@@ -113,6 +113,31 @@ impl Aabb {
         }
         point.distance(point.clamp(self.min.as_dvec3(), self.max.as_dvec3()))
     }
+
+    /// Whether any of `origin + s * towards`, 0 <= s <= `reach` (which may be infinite), lies in
+    /// the box. May say yes wrongly (within a millionth of the coordinates' size), never no.
+    #[must_use]
+    pub fn meets_segment(&self, origin: DVec3, towards: DVec3, reach: f64) -> bool {
+        if self.is_empty() {
+            return false;
+        }
+        let (min, max) = (self.min.as_dvec3(), self.max.as_dvec3());
+        let grown = 1e-6 * origin.abs().max(min.abs()).max(max.abs()).max_element();
+        let (mut from, mut to) = (0.0f64, reach);
+        for axis in 0..3 {
+            let (low, high) = (min[axis] - grown - origin[axis], max[axis] + grown - origin[axis]);
+            if towards[axis] == 0.0 {
+                if low > 0.0 || high < 0.0 {
+                    return false;
+                }
+                continue;
+            }
+            let (a, b) = (low / towards[axis], high / towards[axis]);
+            from = from.max(a.min(b));
+            to = to.min(a.max(b));
+        }
+        from <= to
+    }
 }
 
 #[cfg(test)]
@@ -137,6 +162,19 @@ mod tests {
         assert_eq!(unit.distance_to(DVec3::new(0.5, 0.2, 1.0)), 0.0);
         assert_eq!(unit.distance_to(DVec3::new(4.0, 5.0, 0.5)), 5.0);
         assert!((f64::from(unit.radius()) - 0.75f64.sqrt()).abs() < 1e-6);
+    }
+
+    #[test]
+    fn segments_meet_what_they_reach() {
+        let unit = Aabb::from_points([Vec3::ZERO, Vec3::ONE]);
+        let from = DVec3::new(-1.0, 0.5, 0.5);
+        assert!(unit.meets_segment(from, DVec3::X, f64::INFINITY));
+        assert!(unit.meets_segment(from, DVec3::X, 1.0), "it ends on the face");
+        assert!(!unit.meets_segment(from, DVec3::X, 0.9));
+        assert!(!unit.meets_segment(from, DVec3::NEG_X, f64::INFINITY));
+        assert!(!unit.meets_segment(from, DVec3::new(1.0, 1.0, 0.0), f64::INFINITY));
+        assert!(unit.meets_segment(DVec3::splat(0.5), DVec3::ZERO, f64::INFINITY), "a point inside");
+        assert!(!Aabb::EMPTY.meets_segment(from, DVec3::X, f64::INFINITY));
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! Pure math, no GPU and no scene: bounds, frusta, mesh topology, silhouettes, shadow volumes.
 
 pub mod bounds;
+pub mod eye_count;
+pub mod frustum;
 pub mod silhouette;
 pub mod terminator;
 pub mod topology;
@@ -8,6 +10,8 @@ pub mod volume;
 pub mod weld;
 
 pub use bounds::Aabb;
+pub use eye_count::{EyeCount, holding_count};
+pub use frustum::NearPyramid;
 pub use silhouette::{Facing, Planes, light_in_object};
 pub use topology::{Topology, TopologyReport};
 pub use volume::{Caster, VolumeIndices, VolumeParts, VolumeScratch};

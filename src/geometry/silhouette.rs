@@ -44,13 +44,11 @@ impl Planes {
             array.reserve(topology.triangles().len());
         }
         for triangle in topology.triangles() {
-            // In double precision: rounded once, at the end, slivers keep their direction.
-            let [a, b, c] = triangle.map(|vertex| welded[vertex as usize].as_dvec3());
-            let normal = (b - a).cross(c - a);
-            self.x.push(normal.x as f32);
-            self.y.push(normal.y as f32);
-            self.z.push(normal.z as f32);
-            self.offset.push(-normal.dot(a) as f32);
+            let plane = plane(triangle.map(|vertex| welded[vertex as usize]));
+            self.x.push(plane.x);
+            self.y.push(plane.y);
+            self.z.push(plane.z);
+            self.offset.push(plane.w);
         }
     }
 
@@ -65,6 +63,21 @@ impl Planes {
     pub fn is_empty(&self) -> bool {
         self.x.is_empty()
     }
+}
+
+/// A triangle's plane, not normalised.
+pub(super) fn plane(corners: [Vec3; 3]) -> Vec4 {
+    // In double precision: rounded once, at the end, slivers keep their direction.
+    let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+    let normal = (b - a).cross(c - a);
+    normal.extend(-normal.dot(a)).as_vec4()
+}
+
+/// What a triangle adds to the volume. The one place where that is decided.
+#[inline]
+pub(super) fn contribution(plane: Vec4, light: Vec4, two_sided: bool) -> i8 {
+    let facing = plane.x * light.x + plane.y * light.y + plane.z * light.z + plane.w * light.w > 0.0;
+    i8::from(facing) - i8::from(two_sided & !facing)
 }
 
 /// What each triangle adds to the volume: +1 as it is, 0 nothing, -1 turned round.
@@ -84,10 +97,6 @@ impl Facing {
     ///                   |____| 0             ____ -1 (its back to the light)
     /// ```
     pub fn decide(&mut self, topology: &Topology, planes: &Planes, light: Vec4) {
-        let contribution = |x: f32, y: f32, z: f32, offset: f32, two_sided: bool| {
-            let facing = x * light.x + y * light.y + z * light.z + offset * light.w > 0.0;
-            i8::from(facing) - i8::from(two_sided & !facing)
-        };
         let soup = topology.two_sided();
         let count = soup.len().min(planes.len());
         // Slices of one length, so that the loop has no checks in it and runs several at a time.
@@ -95,7 +104,7 @@ impl Facing {
         let soup = &soup[..count];
         self.contributions.resize(count, 0);
         for (at, out) in self.contributions.iter_mut().enumerate() {
-            *out = contribution(x[at], y[at], z[at], offset[at], soup[at]);
+            *out = contribution(Vec4::new(x[at], y[at], z[at], offset[at]), light, soup[at]);
         }
     }
 

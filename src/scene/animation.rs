@@ -100,7 +100,7 @@ impl Channel {
         values.clear();
         let keys = self.times.len();
         let parts = if self.interpolation == Interpolation::CubicSpline { 3 } else { 1 };
-        if keys == 0 || self.values.len() % (keys * parts) != 0 {
+        if keys == 0 || !self.values.len().is_multiple_of(keys * parts) {
             return;
         }
         let width = self.values.len() / (keys * parts);
