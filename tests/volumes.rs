@@ -6,7 +6,7 @@ mod shapes;
 use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec4};
-use obscura::geometry::{VolumeParts, VolumeScratch};
+use obscura::geometry::{EyeCount, VolumeParts, VolumeScratch, holding_count};
 use proptest::prelude::*;
 use shapes::{Shape, cube, light, place, shape, solid, torus};
 
@@ -49,6 +49,42 @@ proptest! {
             let expected = shape.crossed(volume.scratch.facing(), light, point);
             prop_assert!((winding - f64::from(expected)).abs() < 1e-3, "{winding} around {point}, but {expected} crossed");
         }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_eyes_count_is_what_the_volume_winds(shape in shape(), light in light(), eyes in prop::collection::vec(place(), 8)) {
+        let volume = shape.volume(light, VolumeParts::ALL);
+        let boundary = shape.boundary(&volume);
+        for eye in eyes {
+            let eye = eye.as_dvec3();
+            let winding = shape.winding(&boundary, light, eye);
+            match holding_count(&shape.mesh.topology, &shape.mesh.positions, light.as_dvec4(), eye) {
+                EyeCount::Count(count) => prop_assert!((winding - f64::from(count)).abs() < 1e-3, "{winding} around {eye}, counted {count}"),
+                EyeCount::Ambiguous => prop_assert!(shape.near_boundary(light, eye), "{eye} is far from every side and triangle"),
+            }
+        }
+    }
+}
+
+#[test]
+fn an_eye_in_line_with_an_edge_inside_the_surface_is_never_counted_wrong() {
+    // Light and eye on the cube's axis, which meets its faces' diagonals: z-fail, or one exactly.
+    let shape = Shape::new(cube());
+    for step in -50..50 {
+        let eye = DVec3::new(f64::from(step) * 1e-7, -3.0, f64::from(step) * -1e-7);
+        let counted = holding_count(&shape.mesh.topology, &shape.mesh.positions, Vec4::new(0.0, 4.0, 0.0, 1.0).as_dvec4(), eye);
+        assert!(matches!(counted, EyeCount::Count(1) | EyeCount::Ambiguous), "{counted:?} at {eye}");
+        let clear = holding_count(
+            &shape.mesh.topology,
+            &shape.mesh.positions,
+            Vec4::new(0.0, 4.0, 0.0, 1.0).as_dvec4(),
+            eye + DVec3::X * 0.01,
+        );
+        assert_eq!(clear, EyeCount::Count(1));
     }
 }
 

@@ -136,6 +136,15 @@ impl Camera {
         glam::dcamera::rh::proj::directx::perspective_infinite_reverse(self.vertical_fov, self.aspect, self.near)
     }
 
+    /// The near rectangle's corners in world space, around.
+    #[must_use]
+    pub fn near_rectangle(&self) -> [DVec3; 4] {
+        let half_height = (self.vertical_fov / 2.0).tan() * self.near;
+        let (up, right) = (self.up * half_height, self.forward.cross(self.up) * (half_height * self.aspect));
+        let center = self.eye + self.forward * self.near;
+        [center - right - up, center + right - up, center + right + up, center - right + up]
+    }
+
     /// What every vertex shader's matrices are made from.
     #[must_use]
     pub fn clip_from_world(&self) -> DMat4 {

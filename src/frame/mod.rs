@@ -1,5 +1,17 @@
 //! The frame as data: what [`crate::director::plan`] writes and the GPU carries out.
+//!
+//! A [`FramePlan`] holds ids and values only, so it can be printed, compared with a stored text,
+//! checked ([`validate`]) and explained in the panel without a GPU.
 
 pub mod camera;
+pub mod capabilities;
+pub mod plan;
+pub mod state;
+pub mod stencil;
+pub mod step;
+pub mod validate;
 
 pub use camera::{Camera, CameraError};
+pub use capabilities::{Capabilities, Lack};
+pub use plan::{FramePlan, Method, Reason, View, VolumePlan};
+pub use step::{Action, Clear, Draw, DrawSet, Part, Program, Step, Surface, Target, VolumePart};

@@ -102,6 +102,27 @@ impl Shape {
     }
 }
 
+impl Shape {
+    /// Whether `eye` lies close to a triangle, or the way to the light close to an edge: found by
+    /// trying points of all of them.
+    pub fn near_boundary(&self, light: Vec4, eye: DVec3) -> bool {
+        let towards = light.truncate().as_dvec3() - eye * f64::from(light.w);
+        let close = 1e-3;
+        let from_way = |point: DVec3| {
+            let along = (point - eye).dot(towards) / towards.length_squared();
+            let along = along.clamp(0.0, if light.w == 0.0 { f64::INFINITY } else { 1.0 });
+            (eye + towards * along).distance(point)
+        };
+        self.mesh.topology.triangles().iter().any(|triangle| {
+            let [a, b, c] = triangle.map(|vertex| self.welded[vertex as usize].as_dvec3());
+            let normal = (b - a).cross(c - a).normalize_or_zero();
+            let in_plane = [eye, light.truncate().as_dvec3()].iter().any(|point| normal.dot(*point - a).abs() < close);
+            let edges = [(a, b), (b, c), (c, a)];
+            in_plane || edges.iter().any(|(a, b)| (0..=5000).any(|step| from_way(a.lerp(*b, f64::from(step) / 5000.0)) < close))
+        })
+    }
+}
+
 /// What was appended, and what it was made in.
 pub struct Volume {
     pub indices: Vec<u32>,

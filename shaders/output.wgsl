@@ -1,0 +1,113 @@
+#include "shared/frame.wgsl"
+#include "shared/full_screen.wgsl"
+
+@group(1) @binding(0) var scene_color: texture_2d<f32>;
+@group(1) @binding(1) var scene_stencil: texture_2d<u32>;
+
+// Linear light to the picture. Khronos' PBR Neutral curve (2024): what is below 0.8 keeps its hue
+// and nearly its value, what is above is brought down to 1 and gently bleached.
+fn tone_curve(linear: vec3f) -> vec3f {
+    let start = 0.8 - 0.04;
+    let desaturation = 0.15;
+    let least = min(linear.r, min(linear.g, linear.b));
+    let offset = select(0.04, least - 6.25 * least * least, least < 0.08);
+    let color = linear - offset;
+    let peak = max(color.r, max(color.g, color.b));
+    if peak < start {
+        return color;
+    }
+    let room = 1.0 - start;
+    let new_peak = 1.0 - room * room / (peak + room - start);
+    let bleach = 1.0 - 1.0 / (desaturation * (peak - new_peak) + 1.0);
+    return mix(color * (new_peak / peak), vec3f(new_peak), bleach);
+}
+
+@fragment
+fn tone_map(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    let linear = textureLoad(scene_color, vec2i(pixel.xy), 0).rgb * frame.exposure;
+    return vec4f(tone_curve(linear), 1.0);
+}
+
+// Display values, 0 to 1 as the picture stores them, go through unchanged: the target's format
+// encodes sRGB, so they are decoded first.
+@fragment
+fn copy(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    let value = textureLoad(scene_color, vec2i(pixel.xy), 0).rgb;
+    return vec4f(decoded(value), 1.0);
+}
+
+fn decoded(value: vec3f) -> vec3f {
+    return select(pow((value + 0.055) / 1.055, vec3f(2.4)), value / 12.92, value <= vec3f(0.04045));
+}
+
+// Counts in false colour: 0 is dark, 1 to 8 run from blue over green to yellow, 9 and more are
+// white, and counts that wrapped below zero (128 to 255) are red, -1 the brightest.
+fn count_color(count: u32) -> vec3f {
+    if count == 0u {
+        return vec3f(0.07, 0.08, 0.11);
+    }
+    if count >= 128u {
+        return mix(vec3f(0.35, 0.0, 0.1), vec3f(1.0, 0.12, 0.15), f32(max(count, 248u) - 248u) / 7.0);
+    }
+    if count >= 9u {
+        return vec3f(0.97, 0.97, 0.95);
+    }
+    let t = f32(count - 1u) / 7.0;
+    let low = mix(vec3f(0.20, 0.25, 0.65), vec3f(0.10, 0.62, 0.58), saturate(t * 2.0));
+    return mix(low, vec3f(0.98, 0.90, 0.25), saturate(t * 2.0 - 1.0));
+}
+
+// 3 x 5 glyphs, rows from the top, three bits a row: 0 to 9, plus, minus.
+const GLYPHS = array<u32, 12>(
+    0x7b6fu, 0x2c97u, 0x73e7u, 0x73cfu, 0x5bc9u, 0x79cfu, 0x79efu, 0x7249u, 0x7befu, 0x7bcfu, 0x05d0u, 0x01c0u,
+);
+const PLUS: u32 = 10u;
+const MINUS: u32 = 11u;
+
+fn glyph(which: u32, at: vec2i) -> bool {
+    if any(at < vec2i(0)) || at.x > 2 || at.y > 4 {
+        return false;
+    }
+    return ((GLYPHS[which] >> u32(14 - (at.y * 3 + at.x))) & 1u) == 1u;
+}
+
+const SWATCHES: i32 = 12; // 0 to 8, 9+, -2, -1
+
+@fragment
+fn stencil_colors(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    // The legend: a column of swatches at the bottom left, each with its count beside it.
+    let unit = max(i32(frame.size.y) / 240, 1);
+    let cell = 9 * unit;
+    let origin = vec2i(6 * unit, i32(frame.size.y) - 6 * unit - SWATCHES * cell);
+    let at = vec2i(pixel.xy) - origin;
+    if all(at >= vec2i(-3 * unit)) && at.x < 30 * unit && at.y < SWATCHES * cell + 3 * unit {
+        var color = vec3f(0.02, 0.022, 0.03);
+        let row = at.y / cell;
+        if at.y >= 0 && row < SWATCHES && at.x >= 0 {
+            let inside = vec2i(at.x, at.y % cell);
+            var count = u32(row);
+            if row >= 10 {
+                count = u32(254 + row - 10);
+            }
+            if inside.x < 12 * unit && inside.y < 7 * unit {
+                color = count_color(count);
+            } else {
+                let text = (inside - vec2i(15 * unit, unit)) / unit;
+                let first = select(count, MINUS, row >= 10);
+                let second = select(PLUS, 256u - count, row >= 10);
+                let has_second = row >= 9;
+                let drawn = inside.y >= unit && inside.x >= 15 * unit
+                    && (glyph(first, text) || (has_second && glyph(second, text - vec2i(4, 0))));
+                if drawn {
+                    color = vec3f(0.85);
+                }
+            }
+        }
+        return vec4f(decoded(color), 1.0);
+    }
+    let count = textureLoad(scene_stencil, vec2i(pixel.xy), 0).r;
+    // Where the count is zero the scene shows through, dimly, so that one sees what is counted.
+    let ambient = textureLoad(scene_color, vec2i(pixel.xy), 0).rgb * frame.exposure;
+    let hint = select(vec3f(0.0), vec3f(dot(ambient, vec3f(0.25, 0.5, 0.25))), count == 0u);
+    return vec4f(decoded(count_color(count)) + hint * 0.5, 1.0);
+}

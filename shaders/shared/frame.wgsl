@@ -1,0 +1,67 @@
+// What every program sees of the frame. Struct layouts are checked against Rust's by a test.
+
+struct Frame {
+    eye: vec3f,                 // world space, metres
+    exposure: f32,              // times linear colour, before the tone curve
+    ambient_sky: vec3f,         // linear radiance on surfaces that look up
+    smooth_terminator: f32,     // 1: the terminator bound is in force
+    ambient_ground: vec3f,      // linear radiance on surfaces that look down
+    light_count: u32,
+    background_top: vec3f,      // linear
+    _pad0: f32,
+    background_bottom: vec3f,   // linear
+    _pad1: f32,
+    size: vec2f,                // pixels
+    _pad2: vec2f,
+}
+
+struct Object {
+    clip_from_object: mat4x4f,
+    world_from_object: mat4x4f,
+    normal_from_object: mat4x4f, // inverse transpose: normals to world space, unnormalised
+}
+
+const POINT: u32 = 0u;
+const DIRECTIONAL: u32 = 1u;
+const SPOT: u32 = 2u;
+
+struct Light {
+    position: vec3f,            // world space
+    inverse_range_squared: f32, // 0: no end
+    direction: vec3f,           // unit, world space: where it shines to
+    cos_outer: f32,
+    intensity: vec3f,           // linear RGB: candela, or lux
+    inverse_cone_width: f32,    // 1 / (cos inner - cos outer)
+    kind: u32,
+    _pad0: u32,
+    _pad1: u32,
+    _pad2: u32,
+}
+
+struct Volume {
+    light_in_object: vec4f,     // w = 1: a point; w = 0: the direction to a directional light
+    object: u32,
+    _pad0: u32,
+    _pad1: u32,
+    _pad2: u32,
+}
+
+struct Draw {
+    constant: vec4f,
+    light: u32,
+    _pad0: u32,
+    _pad1: u32,
+    _pad2: u32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(0) @binding(1) var<storage, read> objects: array<Object>;
+@group(0) @binding(2) var<storage, read> lights: array<Light>;
+@group(0) @binding(3) var<storage, read> volumes: array<Volume>;
+@group(0) @binding(4) var<uniform> draw: Draw;
+
+// THE clip position: surfaces and volumes alike come through here, so that what is at the same
+// place has the same depth to the last bit (DESIGN section 3).
+fn clip_position(object: u32, position: vec4f) -> vec4f {
+    return objects[object].clip_from_object * position;
+}

@@ -1,0 +1,14 @@
+#include "shared/frame.wgsl"
+#include "shared/surface.wgsl"
+
+// One light's verdict: the step's constant, within the light's range. The stencil test has decided
+// already whether this step is the white or the black one.
+@fragment
+fn verdict(point: SurfacePoint) -> @location(0) vec4f {
+    let light = lights[draw.light];
+    let offset = light.position - point.world;
+    if light.kind != DIRECTIONAL && dot(offset, offset) * light.inverse_range_squared > 1.0 {
+        discard;
+    }
+    return draw.constant;
+}

@@ -1,0 +1,22 @@
+#include "shared/frame.wgsl"
+#include "shared/volume.wgsl"
+
+struct VolumePoint {
+    @invariant @builtin(position) clip: vec4f,
+}
+
+@vertex
+fn volume_vertex(@location(0) vertex: vec4f, @builtin(instance_index) volume: u32) -> VolumePoint {
+    return VolumePoint(volume_position(vertex, volume));
+}
+
+// Counting: the stencil is all that changes.
+@fragment
+fn volume_count() {
+}
+
+// Volumes as coloured glass: premultiplied, one layer a face.
+@fragment
+fn volume_glass() -> @location(0) vec4f {
+    return vec4f(draw.constant.rgb * draw.constant.a, draw.constant.a) / vec4f(vec3f(frame.exposure), 1.0);
+}

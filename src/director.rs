@@ -1,0 +1,252 @@
+//! THE pass order: one function that reads aloud as the frame.
+//!
+//! [`plan`] is the only place where the order of passes is written. It calls each technique for
+//! its steps, in order, and the result is plain data ([`FramePlan`]); [`stage`] adds what comes
+//! before (pose, camera) and after (validation), for the window and the headless commands alike.
+
+use thiserror::Error;
+
+use crate::frame::plan::View;
+use crate::frame::state::Winding;
+use crate::frame::stencil::{BitBudget, StencilState};
+use crate::frame::validate::{Fault, validate};
+use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, Step};
+use crate::geometry::frustum::{NearPyramid, screen_rect};
+use crate::scene::pose::pose;
+use crate::scene::{Pose, Scene};
+use crate::settings::{Settings, Show, Technique};
+use crate::techniques::{self, Caster, counting, show, surfaces};
+
+/// Why a frame cannot be planned: one line each.
+#[derive(Debug, Error)]
+pub enum StageError {
+    /// The settings ask for a camera that is not there.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+    /// The settings ask for a light that is not there.
+    #[error("no light {0} in this scene: it has {1}")]
+    Light(usize, usize),
+    /// A size that no picture has.
+    #[error("a picture of {0} x {1} pixels is not possible here: each side must be 1 to {2}")]
+    Size(u32, u32, u32),
+    /// Not 1 or 4.
+    #[error("{0} samples a pixel are not possible: 1 or 4")]
+    Samples(u32),
+    /// The time is NaN, infinite or negative.
+    #[error("the time must be a number of seconds from 0 on, not {0}")]
+    Time(f64),
+    /// A fault in the plan: a bug in this program, caught before the GPU sees it.
+    #[error("the frame plan is faulty: {0}")]
+    Plan(#[from] Fault),
+}
+
+/// The scene at the settings' time, and the validated plan of its frame.
+///
+/// # Errors
+/// Settings that ask for what is not there.
+pub fn stage(settings: &Settings, scene: &Scene, capabilities: &Capabilities) -> Result<(Pose, FramePlan), StageError> {
+    let [width, height] = settings.size;
+    let largest = capabilities.max_size.min(crate::settings::MAX_SIZE);
+    if width == 0 || height == 0 || width > largest || height > largest {
+        return Err(StageError::Size(width, height, largest));
+    }
+    if ![1, 4].contains(&settings.samples) {
+        return Err(StageError::Samples(settings.samples));
+    }
+    if !settings.time.is_finite() || settings.time < 0.0 {
+        return Err(StageError::Time(settings.time));
+    }
+    let looks_at_light = matches!(settings.show, Show::Stencil | Show::Shadow | Show::Volumes);
+    if looks_at_light && settings.light >= scene.lights.len() {
+        return Err(StageError::Light(settings.light, scene.lights.len()));
+    }
+    let pose = pose(scene, settings.time, settings.animation.unwrap_or(scene.default_animation), &settings.lights);
+    let camera = Camera::choose(settings, scene, &pose)?;
+    let plan = plan(settings, scene, &pose, camera, capabilities);
+    validate(&plan)?;
+    Ok((pose, plan))
+}
+
+/// The frame, in order: ambient light and depth; then light by light, volumes into the stencil and
+/// light where the count is zero; then what is blended, what is shown of the inner works, and the
+/// picture.
+#[must_use]
+pub fn plan(settings: &Settings, scene: &Scene, pose: &Pose, camera: Camera, capabilities: &Capabilities) -> FramePlan {
+    let mut frame = Frame::new(settings, scene, pose, camera, capabilities);
+    let whole = frame.whole();
+    let groups = surfaces::opaque_groups(scene, pose, &frame.plan.views[0]);
+
+    match settings.show {
+        Show::Stencil | Show::Shadow => {
+            let count = frame.count(settings.light);
+            let shows_stencil = settings.show == Show::Stencil;
+            let grey = if shows_stencil { 0.0 } else { MID_GREY };
+            frame.clear_all([grey, grey, grey, 1.0], count.base);
+            frame.extend(surfaces::ambient(&groups, whole));
+            if !shows_stencil {
+                frame.clear_color([grey, grey, grey, 1.0]);
+            }
+            frame.extend(count.steps);
+            if shows_stencil {
+                frame.push(show::stencil_colors(whole));
+            } else {
+                let scissor = frame.light_rect(settings.light);
+                if let Some(scissor) = scissor {
+                    let budget = frame.plan.budget;
+                    frame.extend(surfaces::verdict(&groups, settings.light, scissor, budget));
+                }
+                frame.push(show::copy(whole));
+            }
+        }
+        Show::Final | Show::Volumes | Show::Wireframe => {
+            let mut lights = Vec::new();
+            for light in (0..pose.lights.len()).filter(|&light| pose.lights[light].on) {
+                if let Some(scissor) = frame.light_rect(light) {
+                    lights.push((light, scissor, frame.count(light)));
+                }
+            }
+            let mut stored = lights.first().map_or(0, |(_, _, count)| count.base);
+            frame.clear_all([0.0, 0.0, 0.0, 1.0], stored);
+            frame.extend(surfaces::ambient(&groups, whole));
+            frame.push(show::background(whole));
+            let mut counted = false;
+            for (light, scissor, count) in lights {
+                if counted || count.base != stored {
+                    frame.reset_stencil(light, count.base);
+                    stored = count.base;
+                }
+                counted = !count.steps.is_empty();
+                let unshadowed = count.steps.is_empty() && count.base == 0;
+                frame.extend(count.steps);
+                let stencil = if unshadowed { StencilState::IGNORE } else { StencilState::count_equals(frame.plan.budget) };
+                frame.extend(surfaces::lit(&groups, light, scissor, stencil));
+            }
+            frame.extend(surfaces::transparent(scene, pose, &frame.plan.views[0], whole));
+            match settings.show {
+                Show::Volumes => {
+                    frame.plan_glass(settings.light);
+                    frame.extend(show::volumes(&frame.plan.volumes, settings.light, whole));
+                }
+                Show::Wireframe => frame.push(show::wireframe(scene.instances().count(), whole)),
+                _ => {}
+            }
+            frame.push(show::tone_map(whole));
+        }
+    }
+    frame.plan
+}
+
+/// What `show shadow` draws where a light has no say: exactly 128 of 255 in the picture.
+const MID_GREY: f32 = 128.0 / 255.0;
+
+/// A plan in the making, and what its steps are made from.
+struct Frame<'a> {
+    settings: &'a Settings,
+    scene: &'a Scene,
+    pose: &'a Pose,
+    capabilities: &'a Capabilities,
+    near_pyramid: NearPyramid,
+    plan: FramePlan,
+}
+
+impl<'a> Frame<'a> {
+    fn new(settings: &'a Settings, scene: &'a Scene, pose: &'a Pose, camera: Camera, capabilities: &'a Capabilities) -> Self {
+        let exact_values = matches!(settings.show, Show::Shadow | Show::Stencil);
+        let samples = if exact_values || !capabilities.four_samples { 1 } else { settings.samples };
+        let mut notes: Vec<_> =
+            capabilities.lacks().iter().map(|lack| format!("no {}: {}", lack.feature, lack.instead)).collect();
+        if exact_values && settings.samples != 1 {
+            notes.push(format!("{} shows exact values: 1 sample a pixel", settings.show.name()));
+        }
+        let plan = FramePlan {
+            size: settings.size,
+            samples,
+            exposure: scene.exposure * settings.exposure.exp2(),
+            smooth_terminator: settings.smooth_terminator,
+            budget: BitBudget::default(),
+            views: vec![View { name: "eye".into(), camera, winding: Winding::Ccw }],
+            volumes: Vec::new(),
+            steps: Vec::new(),
+            notes,
+        };
+        Self { settings, scene, pose, capabilities, near_pyramid: NearPyramid::of(camera.eye, camera.near_rectangle()), plan }
+    }
+
+    fn whole(&self) -> [u32; 4] {
+        [0, 0, self.plan.size[0], self.plan.size[1]]
+    }
+
+    /// The pixels a light can reach (L "Scissor Optimization"); `None` where its range is off screen.
+    fn light_rect(&self, light: usize) -> Option<[u32; 4]> {
+        let light = &self.pose.lights[light];
+        if !light.range.is_finite() {
+            return Some(self.whole());
+        }
+        screen_rect(light.position, light.range, &self.plan.views[0].camera.clip_from_world(), self.plan.size)
+    }
+
+    /// How the chosen technique counts this light's volumes.
+    fn count(&mut self, light: usize) -> counting::LightCount {
+        self.count_by(techniques::row(self.settings.technique), light)
+    }
+
+    fn count_by(&mut self, row: &techniques::Row, light: usize) -> counting::LightCount {
+        let posed = &self.pose.lights[light];
+        let Some(scissor) = self.light_rect(light).filter(|_| posed.shadows) else { return counting::LightCount::default() };
+        let view = &self.plan.views[0];
+        let casters: Vec<_> = self
+            .scene
+            .instances()
+            .enumerate()
+            .filter(|(_, (_, node, mesh))| node.casts_shadow && !mesh.indices.is_empty())
+            .filter(|(_, (_, _, mesh))| mesh.primitives.iter().any(|primitive| primitive.casts_shadow))
+            .map(|(instance, (node_index, node, mesh))| Caster {
+                capabilities: self.capabilities,
+                scene: self.scene,
+                pose: self.pose,
+                view,
+                near_pyramid: &self.near_pyramid,
+                instance,
+                node_index,
+                node,
+                mesh,
+                light: posed,
+            })
+            .collect();
+        counting::count_light(row, &casters, light, scissor, self.plan.budget, &mut self.plan.volumes)
+    }
+
+    /// Makes sure that the light whose volumes are shown has some, even when nothing counted them.
+    fn plan_glass(&mut self, light: usize) {
+        if !self.plan.volumes.iter().any(|volume| volume.light == light) {
+            self.count_by(techniques::row(Technique::ZPass), light);
+        }
+    }
+
+    fn push(&mut self, step: Step) {
+        self.plan.steps.push(step);
+    }
+
+    fn extend(&mut self, steps: Vec<Step>) {
+        self.plan.steps.extend(steps);
+    }
+
+    fn clear(&mut self, label: String, why: &str, clear: Clear) {
+        self.push(Step { label, why: why.into(), view: 0, action: Action::Clear(clear) });
+    }
+
+    fn clear_all(&mut self, color: [f32; 4], stencil: u8) {
+        let why = "Depth to infinity (0, reverse-Z), the stencil to how many volumes of the first light hold the eye.";
+        self.clear("clear".into(), why, Clear { color: Some(color), depth: Some(0.0), stencil: Some(stencil) });
+    }
+
+    fn clear_color(&mut self, color: [f32; 4]) {
+        let why = "Depth is laid; colour starts at the grey that means neither lit nor in shadow.";
+        self.clear("clear colour".into(), why, Clear { color: Some(color), depth: None, stencil: None });
+    }
+
+    fn reset_stencil(&mut self, light: usize, value: u8) {
+        let why = "Each light counts anew, from how many of its volumes hold the eye.";
+        self.clear(format!("light {light}: reset the count"), why, Clear { color: None, depth: None, stencil: Some(value) });
+    }
+}

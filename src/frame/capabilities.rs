@@ -1,0 +1,51 @@
+//! What the device can and cannot do, in plain data, so that planning needs no GPU.
+
+use serde::Serialize;
+
+/// The device, as far as a plan depends on it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Capabilities {
+    /// The adapter's name and backend.
+    pub adapter: String,
+    /// Triangles before the near plane can be kept (`DEPTH_CLIP_CONTROL`).
+    pub depth_clip_control: bool,
+    /// GPU time can be measured (`TIMESTAMP_QUERY`).
+    pub timestamps: bool,
+    /// Four samples a pixel can be drawn and resolved in every format needed.
+    pub four_samples: bool,
+    /// Pixels a side.
+    pub max_size: u32,
+}
+
+/// Something the device lacks.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Lack {
+    /// What is missing.
+    pub feature: &'static str,
+    /// What is done instead.
+    pub instead: &'static str,
+}
+
+impl Capabilities {
+    /// A device that can do everything: for planning without one.
+    #[must_use]
+    pub fn complete() -> Self {
+        Self { adapter: "none".into(), depth_clip_control: true, timestamps: true, four_samples: true, max_size: 8192 }
+    }
+
+    /// What is missing, and what replaces it.
+    #[must_use]
+    pub fn lacks(&self) -> Vec<Lack> {
+        [
+            (
+                self.depth_clip_control,
+                Lack { feature: "depth clamp (DEPTH_CLIP_CONTROL)", instead: "exact z-pass counts every caster by z-fail" },
+            ),
+            (self.timestamps, Lack { feature: "GPU timestamps (TIMESTAMP_QUERY)", instead: "only CPU time is shown" }),
+            (self.four_samples, Lack { feature: "4 samples a pixel", instead: "1 sample is used" }),
+        ]
+        .into_iter()
+        .filter_map(|(there, lack)| (!there).then_some(lack))
+        .collect()
+    }
+}

@@ -1,0 +1,122 @@
+//! The frame as one value.
+
+use serde::Serialize;
+
+use super::camera::Camera;
+use super::state::Winding;
+use super::stencil::BitBudget;
+use super::step::{Action, Draw, Step};
+
+/// Everything that one frame does, in order: ids and values only.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FramePlan {
+    /// Pixels.
+    pub size: [u32; 2],
+    /// Per pixel.
+    pub samples: u32,
+    /// Multiplies linear colour before the tone curve.
+    pub exposure: f32,
+    /// The terminator bound is in force.
+    pub smooth_terminator: bool,
+    /// Who owns which stencil bits.
+    pub budget: BitBudget,
+    /// The eye; later also one for each mirror path.
+    pub views: Vec<View>,
+    /// How each caster's volume is counted for each light, and why.
+    pub volumes: Vec<VolumePlan>,
+    /// What is done, in order.
+    pub steps: Vec<Step>,
+    /// What a user should know about this frame: replacements, limits.
+    pub notes: Vec<String>,
+}
+
+/// One eye.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct View {
+    /// Words: `eye`.
+    pub name: String,
+    /// Where it looks from.
+    pub camera: Camera,
+    /// The front's winding on screen for instances that do not mirror.
+    pub winding: Winding,
+}
+
+/// One caster's volume for one light in one view.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VolumePlan {
+    /// The caster, as [`crate::scene::Scene::instances`] counts them.
+    pub instance: usize,
+    /// An index into the scene's lights.
+    pub light: usize,
+    /// How it is counted.
+    pub method: Method,
+    /// Why so.
+    pub reason: Reason,
+    /// How many of this caster's volumes hold the eye, where the method needs to know.
+    pub holds_eye: i32,
+    /// The front's winding on screen.
+    pub winding: Winding,
+}
+
+/// How a volume is counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Sides, clipped at the near plane.
+    ZPass,
+    /// Sides under depth clamp, from the eye's own count.
+    ExactZPass,
+    /// Sides, dark cap, light cap that depth can never hide from.
+    ZFail,
+    /// The same, the light cap compared with depth.
+    ZFailCompared,
+    /// Nothing is drawn.
+    Dropped,
+}
+
+/// Why a volume is counted as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Reason {
+    /// The technique does it so for every caster.
+    Technique,
+    /// The caster's own surface is surely in the depth buffer.
+    SurfaceCovers,
+    /// The caster reaches into the pyramid between the eye and the near rectangle, or holds the eye.
+    AcrossNearPlane,
+    /// Its surface may be missing from the depth buffer where the light sees it: culled from
+    /// behind, alpha-masked or blended.
+    SurfaceMayBeMissing,
+    /// The eye lies so near the volume's boundary that its count would be a guess.
+    EyeOnBoundary,
+    /// The device has no depth clamp.
+    NoDepthClamp,
+    /// The caster lies wholly beyond the light's range.
+    OutOfRange,
+}
+
+impl Reason {
+    /// One sentence for people.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Technique => "the technique counts every caster so",
+            Self::SurfaceCovers => "the caster's own surface is surely in the depth buffer",
+            Self::AcrossNearPlane => "the caster reaches between the eye and the near plane",
+            Self::SurfaceMayBeMissing => "the caster's surface may be missing from the depth buffer",
+            Self::EyeOnBoundary => "the eye lies on the volume's boundary",
+            Self::NoDepthClamp => "the device has no depth clamp",
+            Self::OutOfRange => "the caster lies beyond the light's range",
+        }
+    }
+}
+
+impl FramePlan {
+    /// The draws, in order, with their steps.
+    pub fn draws(&self) -> impl Iterator<Item = (&Step, &Draw)> {
+        self.steps.iter().filter_map(|step| match &step.action {
+            Action::Draw(draw) => Some((step, &**draw)),
+            Action::Clear(_) => None,
+        })
+    }
+}

@@ -1,0 +1,125 @@
+//! Depth, blend, cull and colour-write state, each with a name and the reason for it.
+//!
+//! Plain values without wgpu, so that a plan can be printed, compared and tested without a GPU.
+//! Depth is reverse-Z (DESIGN section 3): 1 at the near plane, 0 at infinity, so `Greater` means
+//! *nearer than what is there*.
+
+use serde::Serialize;
+
+use super::stencil::StencilState;
+
+/// A comparison, as WebGPU names them; `incoming OP stored`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Compare {
+    /// Fails always.
+    Never,
+    /// Passes always.
+    Always,
+    /// Passes where both are the same.
+    Equal,
+    /// Passes where they differ.
+    NotEqual,
+    /// Passes where the incoming value is greater: nearer, for depth.
+    Greater,
+    /// Passes where the incoming value is greater or the same.
+    GreaterEqual,
+}
+
+/// How depth is tested and written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+pub struct Depth {
+    /// Incoming against stored.
+    pub compare: Compare,
+    /// Whether passing fragments replace the stored depth.
+    pub write: bool,
+}
+
+impl Depth {
+    /// The first pass over opaque surfaces: the nearest wins and stays.
+    pub const LAY: Self = Self { compare: Compare::Greater, write: true };
+    /// Surfaces drawn again: only the very fragments that laid the depth pass.
+    pub const SAME_SURFACE: Self = Self { compare: Compare::Equal, write: false };
+    /// Shadow volumes and other things that must be nearer than the surface, and leave it alone.
+    pub const NEARER: Self = Self { compare: Compare::Greater, write: false };
+    /// Lines that lie on the surface.
+    pub const ON_OR_NEARER: Self = Self { compare: Compare::GreaterEqual, write: false };
+    /// Light caps whose own surface is surely in the depth buffer: they can never be nearer, so the
+    /// test that would decide by equality is not asked (DESIGN section 4).
+    pub const NEVER: Self = Self { compare: Compare::Never, write: false };
+    /// Things at infinity: only where no surface laid depth.
+    pub const NOTHING_THERE: Self = Self { compare: Compare::Equal, write: false };
+    /// Full-screen steps: depth has no say.
+    pub const IGNORE: Self = Self { compare: Compare::Always, write: false };
+}
+
+/// How a fragment's colour meets what is there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Blend {
+    /// Takes its place.
+    Replace,
+    /// Is added: one light after the other.
+    Add,
+    /// Covers it by alpha, premultiplied.
+    Over,
+}
+
+/// Which side of a triangle is left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Cull {
+    /// Both sides are drawn.
+    None,
+    /// What is seen from behind is left out.
+    Back,
+}
+
+/// Which winding is the front on screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Winding {
+    /// Counter-clockwise, as glTF has it.
+    Ccw,
+    /// Clockwise: an odd number of reflections in the instance's transform and the view's.
+    Cw,
+}
+
+impl Winding {
+    /// The front's winding after one more map with a determinant of this sign.
+    #[must_use]
+    pub fn through(self, determinant: f64) -> Self {
+        match (determinant < 0.0, self) {
+            (false, winding) => winding,
+            (true, Self::Ccw) => Self::Cw,
+            (true, Self::Cw) => Self::Ccw,
+        }
+    }
+}
+
+/// What happens to triangles before the near plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum NearPlane {
+    /// They are cut off.
+    Clip,
+    /// They stay, their depth clamped (`unclipped_depth`).
+    Clamp,
+}
+
+/// The whole fixed state of one step; nothing is inherited from the step before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+pub struct State {
+    /// Depth test and write.
+    pub depth: Depth,
+    /// Stencil test and operations of both faces.
+    pub stencil: StencilState,
+    /// How colour is combined; `None` writes no colour.
+    pub color: Option<Blend>,
+    /// Which side is left out.
+    pub cull: Cull,
+    /// Which winding is the front.
+    pub winding: Winding,
+    /// What the near plane does.
+    pub near_plane: NearPlane,
+}

@@ -1,0 +1,184 @@
+//! The stencil's eight bits: who owns them, the named operations, and words for people.
+//!
+//! This module owns the budget (DESIGN section 5); no other code writes a mask. In this version
+//! shadow counts take all eight bits; mirrors will take the high ones.
+//!
+//! ```text
+//!   bit   7 6 5 4 3 2 1 0
+//!         [  shadow count ]
+//! ```
+
+use serde::Serialize;
+
+use super::state::Compare;
+
+/// Which bits belong to whom in one frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+pub struct BitBudget {
+    /// The low field: how many volumes hold the pixel, modulo its size.
+    pub count_mask: u8,
+}
+
+impl Default for BitBudget {
+    fn default() -> Self {
+        Self { count_mask: 0xff }
+    }
+}
+
+/// What happens to the stored value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StencilOp {
+    /// Stays.
+    Keep,
+    /// One more, wrapping: the order in which faces arrive must not matter.
+    IncrementWrap,
+    /// One less, wrapping.
+    DecrementWrap,
+}
+
+/// Test and operations for one side of a triangle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+pub struct StencilFace {
+    /// `reference & read_mask` against `stored & read_mask`.
+    pub compare: Compare,
+    /// Where the stencil test fails.
+    pub fail: StencilOp,
+    /// Where the stencil test passes and the depth test fails.
+    pub depth_fail: StencilOp,
+    /// Where both pass.
+    pub pass: StencilOp,
+}
+
+impl StencilFace {
+    const fn count(depth_fail: StencilOp, pass: StencilOp) -> Self {
+        Self { compare: Compare::Always, fail: StencilOp::Keep, depth_fail, pass }
+    }
+
+    const fn test(compare: Compare) -> Self {
+        Self { compare, fail: StencilOp::Keep, depth_fail: StencilOp::Keep, pass: StencilOp::Keep }
+    }
+}
+
+/// Test and operations of both sides, and the bits they see and touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+pub struct StencilState {
+    /// Triangles seen from the front.
+    pub front: StencilFace,
+    /// Triangles seen from behind.
+    pub back: StencilFace,
+    /// Bits the comparison sees.
+    pub read_mask: u8,
+    /// Bits the operations change.
+    pub write_mask: u8,
+}
+
+use StencilOp::{DecrementWrap, IncrementWrap, Keep};
+
+impl StencilState {
+    /// The stencil has no say and stays as it is.
+    pub const IGNORE: Self =
+        Self { front: StencilFace::test(Compare::Always), back: StencilFace::test(Compare::Always), read_mask: 0, write_mask: 0 };
+
+    /// Z-pass (Heidmann 1991; L): entering a volume before the surface counts up, leaving it down.
+    #[must_use]
+    pub const fn count_z_pass(budget: BitBudget) -> Self {
+        Self {
+            front: StencilFace::count(Keep, IncrementWrap),
+            back: StencilFace::count(Keep, DecrementWrap),
+            read_mask: budget.count_mask,
+            write_mask: budget.count_mask,
+        }
+    }
+
+    /// Z-fail (Carmack 2000; M section 3): from infinity to the surface, behind it.
+    #[must_use]
+    pub const fn count_z_fail(budget: BitBudget) -> Self {
+        Self {
+            front: StencilFace::count(DecrementWrap, Keep),
+            back: StencilFace::count(IncrementWrap, Keep),
+            read_mask: budget.count_mask,
+            write_mask: budget.count_mask,
+        }
+    }
+
+    /// Z-fail for light-cap triangles that were turned to face the light. They are drawn in the
+    /// surface's own vertex order, so that their depth is the surface's to the last bit, and the
+    /// operations are swapped instead.
+    #[must_use]
+    pub const fn count_z_fail_turned(budget: BitBudget) -> Self {
+        let straight = Self::count_z_fail(budget);
+        Self { front: straight.back, back: straight.front, ..straight }
+    }
+
+    /// Passes where the count equals the reference, and changes nothing.
+    #[must_use]
+    pub const fn count_equals(budget: BitBudget) -> Self {
+        Self::compare_count(budget, Compare::Equal)
+    }
+
+    /// Passes where the count differs from the reference, and changes nothing.
+    #[must_use]
+    pub const fn count_differs(budget: BitBudget) -> Self {
+        Self::compare_count(budget, Compare::NotEqual)
+    }
+
+    const fn compare_count(budget: BitBudget, compare: Compare) -> Self {
+        Self { front: StencilFace::test(compare), back: StencilFace::test(compare), read_mask: budget.count_mask, write_mask: 0 }
+    }
+
+    /// Whether any operation changes stored bits.
+    #[must_use]
+    pub fn writes(&self) -> bool {
+        let face = |f: &StencilFace| f.fail != Keep || f.depth_fail != Keep || f.pass != Keep;
+        self.write_mask != 0 && (face(&self.front) || face(&self.back))
+    }
+
+    /// Whether the stored bits decide anything.
+    #[must_use]
+    pub fn tests(&self) -> bool {
+        self.front.compare != Compare::Always || self.back.compare != Compare::Always
+    }
+
+    /// The state in words, for the panel and plan snapshots.
+    #[must_use]
+    pub fn words(&self) -> String {
+        if !self.tests() && !self.writes() {
+            return "ignored".into();
+        }
+        let face = |f: &StencilFace| {
+            let test = match f.compare {
+                Compare::Always => String::new(),
+                other => format!("passes where the reference is {} ", compare_words(other)),
+            };
+            let ops: Vec<_> = [("fail", f.fail), ("depth fail", f.depth_fail), ("pass", f.pass)]
+                .into_iter()
+                .filter(|(_, op)| *op != Keep)
+                .map(|(when, op)| format!("{when}: {}", op_words(op)))
+                .collect();
+            format!("{test}{}", ops.join(", ")).trim().to_owned()
+        };
+        let (front, back) = (face(&self.front), face(&self.back));
+        let masks = format!("read {:08b} write {:08b}", self.read_mask, self.write_mask);
+        if front == back { format!("{front} ({masks})") } else { format!("front {front}; back {back} ({masks})") }
+    }
+}
+
+fn compare_words(compare: Compare) -> &'static str {
+    match compare {
+        Compare::Never => "never",
+        Compare::Always => "anything",
+        Compare::Equal => "the count",
+        Compare::NotEqual => "not the count",
+        Compare::Greater => "above the count",
+        Compare::GreaterEqual => "the count or above",
+    }
+}
+
+fn op_words(op: StencilOp) -> &'static str {
+    match op {
+        Keep => "keep",
+        IncrementWrap => "+1",
+        DecrementWrap => "-1",
+    }
+}

@@ -1,0 +1,146 @@
+//! One entry of the plan: a draw, or a clear, with everything it needs said in ids and values.
+
+use serde::Serialize;
+
+use super::state::State;
+
+/// One entry of the plan, carried out in order.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Step {
+    /// A few words, for lists and debug markers.
+    pub label: String,
+    /// One sentence: what it is for.
+    pub why: String,
+    /// Which view it draws, an index into the plan's views.
+    pub view: usize,
+    /// What it does.
+    pub action: Action,
+}
+
+/// What a step does.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Action {
+    /// Sets attachments to fixed values; begins a new render pass.
+    Clear(Clear),
+    /// Draws.
+    Draw(Box<Draw>),
+}
+
+/// What an attachment clear sets; `None` leaves the attachment as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Clear {
+    /// Linear RGBA.
+    pub color: Option<[f32; 4]>,
+    /// Reverse-Z: 0 is infinity.
+    pub depth: Option<f32>,
+    /// All eight bits: an attachment clear knows no mask.
+    pub stencil: Option<u8>,
+}
+
+/// A draw: program, state, and what is drawn.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Draw {
+    /// Which shaders.
+    pub program: Program,
+    /// Where it draws to.
+    pub target: Target,
+    /// The whole fixed state.
+    pub state: State,
+    /// Compared with the stencil's masked value.
+    pub stencil_reference: u8,
+    /// Pixels: x, y, width, height from the top left; not empty, inside the picture.
+    pub scissor: [u32; 4],
+    /// The light the shaders look at, an index into the scene's lights.
+    pub light: Option<usize>,
+    /// Linear RGBA that programs without a light of their own draw with.
+    pub constant: [f32; 4],
+    /// What is drawn.
+    pub set: DrawSet,
+}
+
+/// Where a step draws to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Target {
+    /// The linear accumulation target, with depth and stencil.
+    Scene,
+    /// The picture itself; the scene's targets are read.
+    Output,
+}
+
+/// Which shaders a step runs; [`crate::gpu::shaders`] says where each is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Program {
+    /// Full screen: the gradient behind everything.
+    Background,
+    /// Surfaces in ambient and emitted light.
+    Ambient,
+    /// The same, with fragments below the alpha cutoff left out.
+    AmbientMasked,
+    /// Surfaces in one light.
+    Lit,
+    /// Shadow volumes, no colour.
+    Volume,
+    /// Shadow volumes as coloured glass.
+    VolumeGlass,
+    /// One light's verdict in plain values.
+    Verdict,
+    /// Blended surfaces in every light, unshadowed.
+    Transparent,
+    /// Triangle edges.
+    Wireframe,
+    /// Full screen: the stencil in false colour.
+    StencilColors,
+    /// Full screen: exposure and tone curve.
+    ToneMap,
+    /// Full screen: display values as they are.
+    Copy,
+}
+
+/// What a step draws, by number.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DrawSet {
+    /// One triangle over everything.
+    FullScreen,
+    /// Mesh primitives.
+    Surfaces(Vec<Surface>),
+    /// Parts of shadow volumes.
+    Volumes(Vec<VolumePart>),
+    /// All edges of these instances, numbered as [`Surface::instance`].
+    Edges(Vec<usize>),
+}
+
+/// One primitive of one instance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Surface {
+    /// As [`crate::scene::Scene::instances`] counts them.
+    pub instance: usize,
+    /// Of the instance's mesh.
+    pub primitive: usize,
+}
+
+/// One part of one planned volume.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct VolumePart {
+    /// An index into the plan's volumes.
+    pub volume: usize,
+    /// Which part of it.
+    pub part: Part,
+}
+
+/// The parts a shadow volume is drawn in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Part {
+    /// Quads from silhouette edges to infinity (triangles, for directional lights).
+    Sides,
+    /// Light-facing triangles, in the surface's vertex order.
+    LightCapKept,
+    /// Triangles turned to face the light, in the surface's vertex order nonetheless.
+    LightCapTurned,
+    /// The cap at infinity.
+    DarkCap,
+}

@@ -1,0 +1,133 @@
+//! Checks a plan without a GPU. A fault here is a bug in the director or a technique, caught where
+//! it can be read instead of where it can only be seen.
+
+use thiserror::Error;
+
+use super::plan::{FramePlan, Method};
+use super::state::{Compare, NearPlane};
+use super::step::{Action, Draw, DrawSet, Part, Target};
+
+/// What is wrong with a plan, and with which step.
+#[derive(Debug, Error, PartialEq, Eq)]
+#[error("step {step} ({label}): {what}")]
+pub struct Fault {
+    /// Its number.
+    pub step: usize,
+    /// Its label.
+    pub label: String,
+    /// What is wrong.
+    pub what: &'static str,
+}
+
+/// Checks that a plan can be carried out and means what it should.
+///
+/// # Errors
+/// The first fault found.
+pub fn validate(plan: &FramePlan) -> Result<(), Fault> {
+    let mut state = Progress::default();
+    for (number, step) in plan.steps.iter().enumerate() {
+        let fault = |what| Fault { step: number, label: step.label.clone(), what };
+        if step.view >= plan.views.len() {
+            return Err(fault("it draws a view that is not planned"));
+        }
+        match &step.action {
+            Action::Clear(clear) => {
+                if state.output_begun {
+                    return Err(fault("it clears the scene's targets after the picture has begun"));
+                }
+                state.color_set |= clear.color.is_some();
+                state.depth_set |= clear.depth.is_some();
+                state.stencil_set |= clear.stencil.is_some();
+                if clear.stencil.is_some() {
+                    state.counting = false;
+                }
+            }
+            Action::Draw(draw) => check_draw(plan, draw, &mut state).map_err(fault)?,
+        }
+    }
+    match plan.steps.last() {
+        Some(_) if state.output_begun => Ok(()),
+        last => Err(Fault {
+            step: plan.steps.len().saturating_sub(1),
+            label: last.map(|step| step.label.clone()).unwrap_or_default(),
+            what: "the plan ends without a picture",
+        }),
+    }
+}
+
+#[derive(Default)]
+struct Progress {
+    color_set: bool,
+    depth_set: bool,
+    stencil_set: bool,
+    counting: bool,
+    output_begun: bool,
+}
+
+fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(), &'static str> {
+    let [x, y, width, height] = draw.scissor;
+    let inside = |start: u32, length: u32, size: u32| start.checked_add(length).is_some_and(|end| end <= size);
+    if width == 0 || height == 0 || !inside(x, width, plan.size[0]) || !inside(y, height, plan.size[1]) {
+        return Err("its scissor is empty or leaves the picture");
+    }
+    match draw.target {
+        Target::Output => {
+            state.output_begun = true;
+            if draw.state.stencil.tests() || draw.state.stencil.writes() {
+                return Err("the picture itself has no stencil");
+            }
+            if !matches!(draw.set, DrawSet::FullScreen) {
+                return Err("only full-screen steps draw the picture");
+            }
+            return Ok(());
+        }
+        Target::Scene if state.output_begun => return Err("it draws the scene after the picture has begun"),
+        Target::Scene => {}
+    }
+    if !(state.color_set && state.depth_set) {
+        return Err("it draws before colour and depth were cleared");
+    }
+    let stencil = &draw.state.stencil;
+    if (stencil.tests() || stencil.writes()) && !state.stencil_set {
+        return Err("it tests or writes stencil bits that nobody set");
+    }
+    if stencil.writes() && stencil.write_mask & !plan.budget.count_mask != 0 {
+        return Err("it writes stencil bits outside its budget");
+    }
+    if stencil.tests() && draw.stencil_reference & !stencil.read_mask != 0 {
+        return Err("its stencil reference does not fit its mask");
+    }
+    if draw.state.depth.write && state.counting {
+        return Err("it writes depth after counting began: the count would belong to another surface");
+    }
+    if let DrawSet::Volumes(parts) = &draw.set {
+        state.counting |= stencil.writes();
+        for part in parts {
+            let volume = plan.volumes.get(part.volume).ok_or("it draws a volume that is not planned")?;
+            if volume.winding != draw.state.winding {
+                return Err("its winding is not its volume's: fronts would count as backs");
+            }
+            if !stencil.writes() {
+                continue;
+            }
+            if Some(volume.light) != draw.light {
+                return Err("it counts another light's volume");
+            }
+            let clamped = draw.state.near_plane == NearPlane::Clamp;
+            if clamped != (volume.method == Method::ExactZPass) {
+                return Err("depth clamp belongs to exact z-pass, and exact z-pass needs it");
+            }
+            let light_cap = matches!(part.part, Part::LightCapKept | Part::LightCapTurned);
+            let never = draw.state.depth.compare == Compare::Never;
+            if never != (light_cap && volume.method == Method::ZFail) {
+                return Err("depth compare Never is for light caps whose surface is surely there, and for nothing else");
+            }
+            if volume.method == Method::Dropped {
+                return Err("it counts a volume that was dropped");
+            }
+        }
+    } else if stencil.writes() {
+        return Err("only volumes are counted");
+    }
+    Ok(())
+}

@@ -1,0 +1,273 @@
+//! Walks the plan and records it: neighbours with the same attachments share one render pass.
+
+use super::context::Context;
+use super::frame_buffers::{DRAW_STRIDE, FrameBuffers};
+use super::pipelines::{Key, Pipelines};
+use super::scene_buffers::SceneBuffers;
+use super::targets::Targets;
+use super::timing::Timing;
+use crate::frame::{Action, Clear, Draw, DrawSet, FramePlan, Part, Surface, Target, VolumePart};
+use crate::geometry::volume::VolumeIndices;
+use crate::scene::Scene;
+
+/// What a frame is drawn with and into.
+pub struct Encode<'a> {
+    pub context: &'a Context,
+    pub pipelines: &'a mut Pipelines,
+    pub buffers: &'a mut SceneBuffers,
+    pub frame: &'a FrameBuffers,
+    pub targets: &'a Targets,
+    pub output: &'a wgpu::TextureView,
+    pub format: wgpu::TextureFormat,
+    pub timing: &'a Timing,
+}
+
+/// What was drawn.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Drawn {
+    /// Draw calls.
+    pub draws: u32,
+    /// Triangles of surfaces and volumes together.
+    pub triangles: u64,
+    /// Of shadow volumes.
+    pub volume_triangles: u64,
+}
+
+/// Draws that share attachments, and what is cleared before them.
+struct Pass<'a> {
+    target: Target,
+    clear: Clear,
+    /// With each draw's number among the plan's draws.
+    draws: Vec<(usize, &'a Draw)>,
+}
+
+/// Records the whole plan.
+pub fn encode(encode: Encode<'_>, plan: &FramePlan, scene: &Scene, encoder: &mut wgpu::CommandEncoder) -> Drawn {
+    let instances: Vec<_> = scene.instances().collect();
+    for (_, draw) in plan.draws() {
+        encode.pipelines.prepare(encode.context, &encode.key(plan, draw));
+        if let DrawSet::Edges(shown) = &draw.set {
+            for &instance in shown {
+                let (_, node, mesh) = instances[instance];
+                encode.buffers.prepare_edges(encode.context, node.mesh.unwrap_or(0), mesh);
+            }
+        }
+    }
+    let passes = passes(plan);
+    let last_scene = passes.iter().rposition(|pass| pass.target == Target::Scene);
+    let mut drawn = Drawn::default();
+    for (index, pass) in passes.iter().enumerate() {
+        let timestamps = encode.timing.writes(index == 0, index + 1 == passes.len());
+        let mut recorder = encode.begin(encoder, pass, Some(index) == last_scene, timestamps);
+        recorder.set_bind_group_checked(0, encode.frame.bind_group(), 0);
+        for &(number, draw) in &pass.draws {
+            encode.record(&mut recorder, plan, scene, draw, number, &mut drawn);
+        }
+    }
+    drawn
+}
+
+trait CheckedBind {
+    fn set_bind_group_checked(&mut self, index: u32, group: Option<&wgpu::BindGroup>, draw: usize);
+}
+
+impl CheckedBind for wgpu::RenderPass<'_> {
+    fn set_bind_group_checked(&mut self, index: u32, group: Option<&wgpu::BindGroup>, draw: usize) {
+        if let Some(group) = group {
+            let offset = u32::try_from(draw as u64 * DRAW_STRIDE).unwrap_or(0);
+            self.set_bind_group(index, group, &[offset]);
+        }
+    }
+}
+
+fn passes(plan: &FramePlan) -> Vec<Pass<'_>> {
+    const KEEP: Clear = Clear { color: None, depth: None, stencil: None };
+    let mut passes: Vec<Pass<'_>> = Vec::new();
+    let mut pending: Option<Clear> = None;
+    let mut number = 0;
+    for step in &plan.steps {
+        match &step.action {
+            Action::Clear(clear) => {
+                let before = pending.unwrap_or(KEEP);
+                pending = Some(Clear {
+                    color: clear.color.or(before.color),
+                    depth: clear.depth.or(before.depth),
+                    stencil: clear.stencil.or(before.stencil),
+                });
+            }
+            Action::Draw(draw) => {
+                let joins = pending.is_none() && passes.last().is_some_and(|pass| pass.target == draw.target);
+                if !joins {
+                    passes.push(Pass { target: draw.target, clear: pending.take().unwrap_or(KEEP), draws: Vec::new() });
+                }
+                if let Some(pass) = passes.last_mut() {
+                    pass.draws.push((number, draw));
+                }
+                number += 1;
+            }
+        }
+    }
+    passes
+}
+
+fn load<T, C: Into<T>>(clear: Option<C>) -> wgpu::LoadOp<T> {
+    clear.map_or(wgpu::LoadOp::Load, |value| wgpu::LoadOp::Clear(value.into()))
+}
+
+impl Encode<'_> {
+    fn key(&self, plan: &FramePlan, draw: &Draw) -> Key {
+        Key { program: draw.program, state: draw.state, target: draw.target, output: self.format, samples: plan.samples }
+    }
+
+    fn begin<'e>(
+        &self,
+        encoder: &'e mut wgpu::CommandEncoder,
+        pass: &Pass<'_>,
+        resolve: bool,
+        timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) -> wgpu::RenderPass<'e> {
+        let store = wgpu::StoreOp::Store;
+        match pass.target {
+            Target::Scene => {
+                let color =
+                    pass.clear.color.map(|[r, g, b, a]| wgpu::Color { r: r.into(), g: g.into(), b: b.into(), a: a.into() });
+                encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some("scene"),
+                    color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                        view: &self.targets.color,
+                        depth_slice: None,
+                        resolve_target: self.targets.resolved.as_ref().filter(|_| resolve),
+                        ops: wgpu::Operations { load: load(color), store },
+                    })],
+                    depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                        view: &self.targets.depth_stencil,
+                        depth_ops: Some(wgpu::Operations { load: load(pass.clear.depth), store }),
+                        stencil_ops: Some(wgpu::Operations { load: load(pass.clear.stencil), store }),
+                    }),
+                    timestamp_writes,
+                    ..Default::default()
+                })
+            }
+            Target::Output => encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("picture"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: self.output,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store },
+                })],
+                timestamp_writes,
+                ..Default::default()
+            }),
+        }
+    }
+
+    fn record(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        plan: &FramePlan,
+        scene: &Scene,
+        draw: &Draw,
+        number: usize,
+        drawn: &mut Drawn,
+    ) {
+        let Some(pipeline) = self.pipelines.get(&self.key(plan, draw)) else { return };
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group_checked(0, self.frame.bind_group(), number);
+        pass.set_stencil_reference(draw.stencil_reference.into());
+        let [x, y, width, height] = draw.scissor;
+        pass.set_scissor_rect(x, y, width, height);
+        match &draw.set {
+            DrawSet::FullScreen => {
+                if draw.target == Target::Output {
+                    pass.set_bind_group(1, &self.targets.read, &[]);
+                }
+                pass.draw(0..3, 0..1);
+                drawn.draws += 1;
+            }
+            DrawSet::Surfaces(surfaces) => self.record_surfaces(pass, scene, surfaces, drawn),
+            DrawSet::Volumes(parts) => self.record_volumes(pass, plan, scene, parts, drawn),
+            DrawSet::Edges(instances) => self.record_edges(pass, scene, instances, drawn),
+        }
+    }
+
+    fn record_surfaces(&self, pass: &mut wgpu::RenderPass<'_>, scene: &Scene, surfaces: &[Surface], drawn: &mut Drawn) {
+        let instances: Vec<_> = scene.instances().collect();
+        let mut bound_instance = None;
+        let mut bound_material = None;
+        for surface in surfaces {
+            let (_, node, mesh) = instances[surface.instance];
+            let primitive = mesh.primitives[surface.primitive];
+            if bound_instance != Some(surface.instance) {
+                let mesh_index = node.mesh.unwrap_or(0);
+                let vertices = self.buffers.vertices(surface.instance, mesh_index);
+                pass.set_vertex_buffer(0, vertices.positions.slice(..));
+                pass.set_vertex_buffer(1, vertices.attributes.slice(..));
+                pass.set_index_buffer(self.buffers.meshes[mesh_index].indices.slice(..), wgpu::IndexFormat::Uint32);
+                bound_instance = Some(surface.instance);
+            }
+            if bound_material != Some(primitive.material) {
+                pass.set_bind_group(1, &self.buffers.materials[primitive.material], &[]);
+                bound_material = Some(primitive.material);
+            }
+            let object = u32::try_from(surface.instance).unwrap_or(0);
+            pass.draw_indexed(primitive.first_index..primitive.first_index + primitive.index_count, 0, object..object + 1);
+            drawn.draws += 1;
+            drawn.triangles += u64::from(primitive.index_count / 3);
+        }
+    }
+
+    fn record_volumes(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        plan: &FramePlan,
+        scene: &Scene,
+        parts: &[VolumePart],
+        drawn: &mut Drawn,
+    ) {
+        let Some(indices) = self.frame.indices.buffer() else { return };
+        pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+        let instances: Vec<_> = scene.instances().collect();
+        let mut bound = None;
+        for part in parts {
+            let range = range_of(&self.frame.volume_indices[part.volume], part.part);
+            if range.is_empty() {
+                continue;
+            }
+            let instance = plan.volumes[part.volume].instance;
+            if bound != Some(instance) {
+                let vertices = self.buffers.vertices(instance, instances[instance].1.mesh.unwrap_or(0));
+                pass.set_vertex_buffer(0, vertices.volume.slice(..));
+                bound = Some(instance);
+            }
+            let volume = u32::try_from(part.volume).unwrap_or(0);
+            let triangles = u64::from((range.end - range.start) / 3);
+            pass.draw_indexed(range, 0, volume..volume + 1);
+            drawn.draws += 1;
+            drawn.triangles += triangles;
+            drawn.volume_triangles += triangles;
+        }
+    }
+
+    fn record_edges(&self, pass: &mut wgpu::RenderPass<'_>, scene: &Scene, shown: &[usize], drawn: &mut Drawn) {
+        let instances: Vec<_> = scene.instances().collect();
+        for &instance in shown {
+            let mesh_index = instances[instance].1.mesh.unwrap_or(0);
+            let Some((edges, count)) = &self.buffers.meshes[mesh_index].edges else { continue };
+            pass.set_vertex_buffer(0, self.buffers.vertices(instance, mesh_index).positions.slice(..));
+            pass.set_index_buffer(edges.slice(..), wgpu::IndexFormat::Uint32);
+            let object = u32::try_from(instance).unwrap_or(0);
+            pass.draw_indexed(0..*count, 0, object..object + 1);
+            drawn.draws += 1;
+        }
+    }
+}
+
+fn range_of(indices: &VolumeIndices, part: Part) -> std::ops::Range<u32> {
+    match part {
+        Part::Sides => indices.sides.clone(),
+        Part::LightCapKept => indices.light_cap_kept.clone(),
+        Part::LightCapTurned => indices.light_cap_turned.clone(),
+        Part::DarkCap => indices.dark_cap.clone(),
+    }
+}

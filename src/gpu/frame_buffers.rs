@@ -1,0 +1,273 @@
+//! What changes with every frame: matrices, lights, and the indices of shadow volumes.
+
+use bytemuck::cast_slice;
+use glam::{DMat3, DMat4, Mat4, Vec3};
+
+use super::context::Context;
+use super::scene_buffers::SceneBuffers;
+use super::types::{Draw, Frame, Light, Object, Volume};
+use crate::frame::{DrawSet, FramePlan, Part};
+use crate::geometry::light_in_object;
+use crate::geometry::volume::{Caster, VolumeIndices, VolumeParts, VolumeScratch};
+use crate::scene::{LightKind, Pose, PosedLight, Scene};
+
+/// Uniforms are read at offsets of this many bytes: WebGPU's default alignment.
+pub const DRAW_STRIDE: u64 = 256;
+
+/// Buffers written once a frame, grown when they must, and the bind group over them.
+pub struct FrameBuffers {
+    frame: Growing,
+    objects: Growing,
+    lights: Growing,
+    volumes: Growing,
+    draws: Growing,
+    /// Indices of all volumes, `u32`.
+    pub indices: Growing,
+    /// Where each planned volume's parts stand among them.
+    pub volume_indices: Vec<VolumeIndices>,
+    bind_group: Option<wgpu::BindGroup>,
+    scratch: Scratch,
+}
+
+/// CPU memory kept from frame to frame.
+#[derive(Default)]
+struct Scratch {
+    objects: Vec<Object>,
+    lights: Vec<Light>,
+    volumes: Vec<Volume>,
+    draws: Vec<u8>,
+    indices: Vec<u32>,
+    volume: VolumeScratch,
+    parts: Vec<Option<VolumeParts>>,
+}
+
+/// A device buffer that is made anew, larger, when its data outgrow it.
+pub struct Growing {
+    label: &'static str,
+    usage: wgpu::BufferUsages,
+    buffer: Option<wgpu::Buffer>,
+}
+
+impl Growing {
+    fn new(label: &'static str, usage: wgpu::BufferUsages) -> Self {
+        Self { label, usage: usage | wgpu::BufferUsages::COPY_DST, buffer: None }
+    }
+
+    /// Writes `bytes`; true where the buffer was made anew.
+    fn write(&mut self, context: &Context, bytes: &[u8], least: usize) -> bool {
+        let needed = bytes.len().max(least).next_multiple_of(16) as u64;
+        let grown = self.buffer.as_ref().is_none_or(|buffer| buffer.size() < needed);
+        if grown {
+            self.buffer = Some(context.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(self.label),
+                size: needed + needed / 2 / 16 * 16,
+                usage: self.usage,
+                mapped_at_creation: false,
+            }));
+        }
+        if let Some(buffer) = &self.buffer {
+            context.queue.write_buffer(buffer, 0, bytes);
+        }
+        grown
+    }
+
+    /// The buffer, once something was written.
+    #[must_use]
+    pub fn buffer(&self) -> Option<&wgpu::Buffer> {
+        self.buffer.as_ref()
+    }
+}
+
+impl Default for FrameBuffers {
+    fn default() -> Self {
+        let uniform = wgpu::BufferUsages::UNIFORM;
+        let storage = wgpu::BufferUsages::STORAGE;
+        Self {
+            frame: Growing::new("frame", uniform),
+            objects: Growing::new("objects", storage),
+            lights: Growing::new("lights", storage),
+            volumes: Growing::new("volumes", storage),
+            draws: Growing::new("draws", uniform),
+            indices: Growing::new("volume indices", wgpu::BufferUsages::INDEX),
+            volume_indices: Vec::new(),
+            bind_group: None,
+            scratch: Scratch::default(),
+        }
+    }
+}
+
+impl FrameBuffers {
+    /// Group 0, once something was written.
+    #[must_use]
+    pub fn bind_group(&self) -> Option<&wgpu::BindGroup> {
+        self.bind_group.as_ref()
+    }
+
+    /// Builds and uploads everything the plan's steps will read.
+    pub fn write(
+        &mut self,
+        context: &Context,
+        layout: &wgpu::BindGroupLayout,
+        buffers: &SceneBuffers,
+        plan: &FramePlan,
+        scene: &Scene,
+        pose: &Pose,
+    ) {
+        self.build_volumes(buffers, plan, scene, pose);
+        self.describe_objects(plan, scene, pose);
+        let scratch = &mut self.scratch;
+        scratch.lights.clear();
+        // Lights that are off have no intensity, so that indices stay the scene's.
+        scratch.lights.extend(pose.lights.iter().map(light));
+        scratch.draws.clear();
+        for (_, draw) in plan.draws() {
+            let uniform = Draw {
+                constant: draw.constant,
+                light: draw.light.and_then(|light| u32::try_from(light).ok()).unwrap_or(0),
+                _pad: [0; 3],
+            };
+            scratch.draws.extend_from_slice(bytemuck::bytes_of(&uniform));
+            scratch.draws.resize(scratch.draws.len().next_multiple_of(DRAW_STRIDE as usize), 0);
+        }
+        let frame = frame(plan, scene, pose);
+
+        let mut grown = self.frame.write(context, bytemuck::bytes_of(&frame), 0);
+        grown |= self.objects.write(context, cast_slice(&scratch.objects), size_of::<Object>());
+        grown |= self.lights.write(context, cast_slice(&scratch.lights), size_of::<Light>());
+        grown |= self.volumes.write(context, cast_slice(&scratch.volumes), size_of::<Volume>());
+        grown |= self.draws.write(context, &scratch.draws, DRAW_STRIDE as usize);
+        self.indices.write(context, cast_slice(&scratch.indices), 4);
+        if grown || self.bind_group.is_none() {
+            self.bind_group = self.make_bind_group(context, layout);
+        }
+    }
+
+    fn make_bind_group(&self, context: &Context, layout: &wgpu::BindGroupLayout) -> Option<wgpu::BindGroup> {
+        let draws = wgpu::BufferBinding {
+            buffer: self.draws.buffer()?,
+            offset: 0,
+            size: std::num::NonZeroU64::new(size_of::<Draw>() as u64),
+        };
+        Some(context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("frame"),
+            layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: self.frame.buffer()?.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: self.objects.buffer()?.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 2, resource: self.lights.buffer()?.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 3, resource: self.volumes.buffer()?.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 4, resource: wgpu::BindingResource::Buffer(draws) },
+            ],
+        }))
+    }
+
+    /// Only the parts that some step draws are built.
+    fn build_volumes(&mut self, buffers: &SceneBuffers, plan: &FramePlan, scene: &Scene, pose: &Pose) {
+        let scratch = &mut self.scratch;
+        scratch.parts.clear();
+        scratch.parts.resize(plan.volumes.len(), None);
+        for (_, draw) in plan.draws() {
+            if let DrawSet::Volumes(parts) = &draw.set {
+                for part in parts {
+                    let wanted =
+                        scratch.parts[part.volume].get_or_insert(VolumeParts { sides: false, light_cap: false, dark_cap: false });
+                    match part.part {
+                        Part::Sides => wanted.sides = true,
+                        Part::LightCapKept | Part::LightCapTurned => wanted.light_cap = true,
+                        Part::DarkCap => wanted.dark_cap = true,
+                    }
+                }
+            }
+        }
+        scratch.indices.clear();
+        scratch.volumes.clear();
+        self.volume_indices.clear();
+        let instances: Vec<_> = scene.instances().collect();
+        for (volume, wanted) in plan.volumes.iter().zip(&scratch.parts) {
+            let (node_index, node, mesh) = instances[volume.instance];
+            let light = light_in_object(&pose.world_from_object[node_index], &pose.lights[volume.light]).as_vec4();
+            scratch.volumes.push(Volume {
+                light_in_object: light.to_array(),
+                object: u32::try_from(volume.instance).unwrap_or(0),
+                _pad: [0; 3],
+            });
+            let Some(parts) = *wanted else {
+                self.volume_indices.push(VolumeIndices::default());
+                continue;
+            };
+            let vertices = buffers.vertices(volume.instance, node.mesh.unwrap_or(0));
+            let caster = Caster {
+                topology: &mesh.topology,
+                welded: &vertices.welded,
+                planes: &vertices.planes,
+                bounds: &pose.bounds(scene, node_index),
+            };
+            self.volume_indices.push(scratch.volume.append(caster, light, parts, &mut scratch.indices));
+        }
+    }
+
+    fn describe_objects(&mut self, plan: &FramePlan, scene: &Scene, pose: &Pose) {
+        let clip_from_world = plan.views[0].camera.clip_from_world();
+        self.scratch.objects.clear();
+        self.scratch.objects.extend(scene.instances().map(|(node, ..)| {
+            let world_from_object = DMat4::from(pose.world_from_object[node]);
+            let linear = DMat3::from_mat4(world_from_object);
+            // The cofactor matrix is the inverse transpose times the determinant: it needs no
+            // inverse, and its sign is put right so that mirrored objects keep their outside.
+            let cofactors = DMat3::from_cols(
+                linear.y_axis.cross(linear.z_axis),
+                linear.z_axis.cross(linear.x_axis),
+                linear.x_axis.cross(linear.y_axis),
+            ) * linear.determinant().signum();
+            Object {
+                clip_from_object: (clip_from_world * world_from_object).as_mat4().to_cols_array_2d(),
+                world_from_object: world_from_object.as_mat4().to_cols_array_2d(),
+                normal_from_object: Mat4::from_mat3(cofactors.as_mat3()).to_cols_array_2d(),
+            }
+        }));
+    }
+
+    /// Indices built this frame.
+    #[must_use]
+    pub fn index_count(&self) -> u64 {
+        self.scratch.indices.len() as u64
+    }
+}
+
+fn frame(plan: &FramePlan, scene: &Scene, pose: &Pose) -> Frame {
+    #[expect(clippy::cast_precision_loss, reason = "pixels fit f32 exactly")]
+    let size = plan.size.map(|side| side as f32);
+    Frame {
+        eye: plan.views[0].camera.eye.as_vec3().to_array(),
+        exposure: plan.exposure,
+        ambient_sky: scene.environment.ambient_sky.to_array(),
+        smooth_terminator: f32::from(u8::from(plan.smooth_terminator)),
+        ambient_ground: scene.environment.ambient_ground.to_array(),
+        light_count: u32::try_from(pose.lights.len()).unwrap_or(u32::MAX),
+        background_top: (scene.environment.background[0] / plan.exposure).to_array(),
+        background_bottom: (scene.environment.background[1] / plan.exposure).to_array(),
+        size,
+        ..Frame::default()
+    }
+}
+
+fn light(light: &PosedLight) -> Light {
+    let (kind, inner, outer) = match light.kind {
+        LightKind::Point => (0, 0.0, 0.0),
+        LightKind::Directional => (1, 0.0, 0.0),
+        LightKind::Spot { inner, outer } => (2, inner, outer),
+    };
+    let range = light.range;
+    #[expect(clippy::cast_possible_truncation, reason = "the GPU works in f32")]
+    let inverse_range_squared = if range.is_finite() && kind != 1 { (1.0 / (range * range)) as f32 } else { 0.0 };
+    Light {
+        position: light.position.as_vec3().to_array(),
+        inverse_range_squared,
+        direction: light.direction.as_vec3().to_array(),
+        cos_outer: outer.cos(),
+        intensity: if light.on { light.intensity } else { Vec3::ZERO }.to_array(),
+        inverse_cone_width: 1.0 / (inner.cos() - outer.cos()).max(1e-4),
+        kind,
+        _pad: [0; 3],
+    }
+}

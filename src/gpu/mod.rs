@@ -1,0 +1,172 @@
+//! Carries plans out on the device. Nothing here decides what is drawn: the plan does.
+//!
+//! [`Context`] is the device, [`Renderer`] everything made on it for one scene. A lost device is
+//! dealt with by making both anew from the CPU scene.
+
+pub mod context;
+mod encode;
+mod frame_buffers;
+pub mod pipelines;
+pub mod readback;
+mod scene_buffers;
+pub mod shaders;
+mod targets;
+mod texture;
+mod timing;
+pub mod types;
+
+use std::path::Path;
+use std::time::Instant;
+
+use serde::Serialize;
+
+pub use context::{Context, GpuError};
+use frame_buffers::FrameBuffers;
+use pipelines::Pipelines;
+use scene_buffers::SceneBuffers;
+use shaders::Library;
+pub use targets::Targets;
+use texture::Samplers;
+use timing::Timing;
+
+use crate::frame::{FramePlan, Method};
+use crate::scene::{Pose, Scene};
+
+/// What one frame took.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct FrameStats {
+    /// Draw calls.
+    pub draws: u32,
+    /// Triangles drawn, volumes included, once for each pass.
+    pub triangles: u64,
+    /// Shadow volumes counted.
+    pub volumes: u32,
+    /// Triangles of shadow volumes.
+    pub volume_triangles: u64,
+    /// Indices of shadow volumes built.
+    pub indices: u64,
+    /// Milliseconds of this thread: volumes built, uploads, recording, submission.
+    pub cpu_ms: f64,
+    /// Milliseconds of the device, of the newest frame that has reported; none without timestamps.
+    pub gpu_ms: Option<f64>,
+}
+
+/// Everything made on the device for drawing.
+pub struct Renderer {
+    library: Library,
+    pipelines: Pipelines,
+    samplers: Samplers,
+    scene: Option<SceneBuffers>,
+    frame: FrameBuffers,
+    targets: Option<Targets>,
+    timing: Timing,
+}
+
+impl Renderer {
+    /// Compiles the shaders, from `shaders` where that folder has them.
+    ///
+    /// # Errors
+    /// A shader that does not compile.
+    pub fn new(context: &Context, shaders: Option<&Path>) -> Result<Self, GpuError> {
+        if let Some(folder) = shaders
+            && !folder.is_dir()
+        {
+            return Err(GpuError::Shader(format!("{}: not a folder", folder.display())));
+        }
+        let library = Library::new(shaders);
+        let pipelines = Pipelines::new(context, &library)?;
+        Ok(Self {
+            library,
+            pipelines,
+            samplers: Samplers::default(),
+            scene: None,
+            frame: FrameBuffers::default(),
+            targets: None,
+            timing: Timing::new(context),
+        })
+    }
+
+    /// Uploads a scene; the one before stays until the new one is there.
+    ///
+    /// # Errors
+    /// A scene that does not fit the device.
+    pub fn set_scene(&mut self, context: &Context, scene: &Scene) -> Result<(), GpuError> {
+        self.scene = Some(SceneBuffers::new(context, &self.pipelines.material_layout, &mut self.samplers, scene)?);
+        Ok(())
+    }
+
+    /// Draws the plan into `output`, a view of `format` and the plan's size, and submits it.
+    /// `scene` is the one that was set.
+    ///
+    /// # Errors
+    /// Targets that do not fit, a device that is lost.
+    pub fn render(
+        &mut self,
+        context: &Context,
+        plan: &FramePlan,
+        scene: &Scene,
+        pose: &Pose,
+        output: &wgpu::TextureView,
+        format: wgpu::TextureFormat,
+    ) -> Result<FrameStats, GpuError> {
+        if context.is_lost() {
+            return Err(GpuError::Device("it was lost".into()));
+        }
+        let begun = Instant::now();
+        let fits = |targets: &Targets| targets.size == plan.size && targets.samples == plan.samples;
+        if !self.targets.as_ref().is_some_and(fits) {
+            self.targets = None;
+            self.targets = Some(Targets::new(context, &self.pipelines.targets_layout, plan.size, plan.samples)?);
+        }
+        let (Some(targets), Some(buffers)) = (&self.targets, &mut self.scene) else {
+            return Err(GpuError::Device("no scene was set".into()));
+        };
+        for (instance, (node, _, mesh)) in scene.instances().enumerate() {
+            buffers.pose(context, instance, mesh, pose.deformed[node].as_ref());
+        }
+        self.frame.write(context, &self.pipelines.frame_layout, buffers, plan, scene, pose);
+
+        let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+        let work = encode::Encode {
+            context,
+            pipelines: &mut self.pipelines,
+            buffers,
+            frame: &self.frame,
+            targets,
+            output,
+            format,
+            timing: &self.timing,
+        };
+        let drawn = encode::encode(work, plan, scene, &mut encoder);
+        let slot = self.timing.resolve(&mut encoder);
+        context.queue.submit([encoder.finish()]);
+        self.timing.read(slot);
+        let volumes = plan.volumes.iter().filter(|volume| volume.method != Method::Dropped).count();
+        Ok(FrameStats {
+            draws: drawn.draws,
+            triangles: drawn.triangles,
+            volumes: u32::try_from(volumes).unwrap_or(u32::MAX),
+            volume_triangles: drawn.volume_triangles,
+            indices: self.frame.index_count(),
+            cpu_ms: begun.elapsed().as_secs_f64() * 1e3,
+            gpu_ms: self.timing.latest(),
+        })
+    }
+
+    /// Looks whether a shader of the folder changed, and if so takes it: `Err` says where it is
+    /// wrong, and the last good shaders stay.
+    pub fn poll_shaders(&mut self, context: &Context) -> Option<Result<(), String>> {
+        self.library.changed().then(|| self.pipelines.reload(context, &self.library).map_err(|error| error.to_string()))
+    }
+
+    /// The newest frame time that has arrived from the device, milliseconds.
+    pub fn gpu_ms(&mut self) -> Option<f64> {
+        self.timing.latest()
+    }
+
+    /// What the last frame was drawn into.
+    #[must_use]
+    pub fn targets(&self) -> Option<&Targets> {
+        self.targets.as_ref()
+    }
+}

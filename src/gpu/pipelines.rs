@@ -1,0 +1,311 @@
+//! Pipelines by value: the state in the step is the cache key. Nothing here knows a technique.
+
+use std::collections::HashMap;
+
+use super::context::{COLOR_FORMAT, Context, DEPTH_FORMAT, GpuError};
+use super::shaders::{Library, Vertices, entry_of};
+use super::types::{Attributes, Draw, Frame, Light, Material, Object, Volume};
+use crate::frame::state::{Blend, Compare, Cull, NearPlane, State, Winding};
+use crate::frame::stencil::{StencilFace, StencilOp};
+use crate::frame::{Program, Target};
+
+/// Everything a pipeline depends on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Key {
+    /// Which shaders.
+    pub program: Program,
+    /// The whole fixed state.
+    pub state: State,
+    /// Where it draws to.
+    pub target: Target,
+    /// The picture's format, for [`Target::Output`].
+    pub output: wgpu::TextureFormat,
+    /// Of the scene's targets.
+    pub samples: u32,
+}
+
+/// Bind group layouts, shader modules and the pipelines made so far.
+pub struct Pipelines {
+    /// Group 0: frame, objects, lights, volumes, draw.
+    pub frame_layout: wgpu::BindGroupLayout,
+    /// Group 1 of surfaces: material, texture, sampler.
+    pub material_layout: wgpu::BindGroupLayout,
+    /// Group 1 of the picture's programs: scene colour, stencil.
+    pub targets_layout: wgpu::BindGroupLayout,
+    bare: wgpu::PipelineLayout,
+    surface: wgpu::PipelineLayout,
+    picture: wgpu::PipelineLayout,
+    modules: HashMap<&'static str, wgpu::ShaderModule>,
+    made: HashMap<Key, wgpu::RenderPipeline>,
+}
+
+impl Pipelines {
+    /// Compiles the library's shaders; pipelines are made when first asked for.
+    ///
+    /// # Errors
+    /// A shader that does not compile.
+    pub fn new(context: &Context, library: &Library) -> Result<Self, GpuError> {
+        let device = &context.device;
+        let both = wgpu::ShaderStages::VERTEX_FRAGMENT;
+        let uniform = |binding, size: usize, dynamic| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: both,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset: dynamic,
+                min_binding_size: std::num::NonZeroU64::new(size as u64),
+            },
+            count: None,
+        };
+        let storage = |binding, size: usize| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: both,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only: true },
+                has_dynamic_offset: false,
+                min_binding_size: std::num::NonZeroU64::new(size as u64),
+            },
+            count: None,
+        };
+        let sampled = |binding, sample_type| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty: wgpu::BindingType::Texture { sample_type, view_dimension: wgpu::TextureViewDimension::D2, multisampled: false },
+            count: None,
+        };
+        let layout = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries })
+        };
+        let frame_layout = layout(
+            "frame",
+            &[
+                uniform(0, size_of::<Frame>(), false),
+                storage(1, size_of::<Object>()),
+                storage(2, size_of::<Light>()),
+                storage(3, size_of::<Volume>()),
+                uniform(4, size_of::<Draw>(), true),
+            ],
+        );
+        let material_layout = layout(
+            "material",
+            &[
+                uniform(0, size_of::<Material>(), false),
+                sampled(1, wgpu::TextureSampleType::Float { filterable: true }),
+                wgpu::BindGroupLayoutEntry {
+                    binding: 2,
+                    visibility: wgpu::ShaderStages::FRAGMENT,
+                    ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+                    count: None,
+                },
+            ],
+        );
+        let targets_layout = layout(
+            "scene targets",
+            &[sampled(0, wgpu::TextureSampleType::Float { filterable: false }), sampled(1, wgpu::TextureSampleType::Uint)],
+        );
+        let pipeline_layout = |label, groups: &[&wgpu::BindGroupLayout]| {
+            let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
+            device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(label),
+                bind_group_layouts: &groups,
+                immediate_size: 0,
+            })
+        };
+        let modules = compile(context, library)?;
+        Ok(Self {
+            bare: pipeline_layout("bare", &[&frame_layout]),
+            surface: pipeline_layout("surface", &[&frame_layout, &material_layout]),
+            picture: pipeline_layout("picture", &[&frame_layout, &targets_layout]),
+            frame_layout,
+            material_layout,
+            targets_layout,
+            modules,
+            made: HashMap::new(),
+        })
+    }
+
+    /// Takes the library's shaders anew. On an error the last good ones stay.
+    ///
+    /// # Errors
+    /// A shader that does not compile, with file, line and column.
+    pub fn reload(&mut self, context: &Context, library: &Library) -> Result<(), GpuError> {
+        let modules = compile(context, library)?;
+        // A shader may be valid by itself and still not fit its pipeline: try all that are in use.
+        let keys: Vec<_> = self.made.keys().copied().collect();
+        let before = std::mem::replace(&mut self.modules, modules);
+        let scope = context.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let made: HashMap<_, _> = keys.into_iter().map(|key| (key, self.make(context, &key))).collect();
+        match pollster::block_on(scope.pop()) {
+            None => {
+                self.made = made;
+                Ok(())
+            }
+            Some(error) => {
+                self.modules = before;
+                let lines: Vec<_> = error.to_string().lines().map(|line| line.trim().to_owned()).collect();
+                Err(GpuError::Shader(lines.join(" ")))
+            }
+        }
+    }
+
+    /// Makes the pipeline if it is not there yet.
+    pub fn prepare(&mut self, context: &Context, key: &Key) {
+        if !self.made.contains_key(key) {
+            let pipeline = self.make(context, key);
+            self.made.insert(*key, pipeline);
+        }
+    }
+
+    /// A pipeline that was prepared.
+    #[must_use]
+    pub fn get(&self, key: &Key) -> Option<&wgpu::RenderPipeline> {
+        self.made.get(key)
+    }
+
+    fn make(&self, context: &Context, key: &Key) -> wgpu::RenderPipeline {
+        let entry = entry_of(key.program);
+        let module = &self.modules[entry.file];
+        let layout = match (entry.vertices, key.target) {
+            (Vertices::Surface, _) => &self.surface,
+            (_, Target::Output) => &self.picture,
+            _ => &self.bare,
+        };
+        let format = if key.target == Target::Output { key.output } else { COLOR_FORMAT };
+        let targets = [Some(wgpu::ColorTargetState {
+            format,
+            blend: key.state.color.and_then(blend),
+            write_mask: if key.state.color.is_some() { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() },
+        })];
+        let in_scene = key.target == Target::Scene;
+        context.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(entry.fragment),
+            layout: Some(layout),
+            vertex: wgpu::VertexState {
+                module,
+                entry_point: Some(entry.vertex),
+                compilation_options: Default::default(),
+                buffers: vertex_buffers(entry.vertices),
+            },
+            primitive: wgpu::PrimitiveState {
+                topology: if entry.vertices == Vertices::Edges {
+                    wgpu::PrimitiveTopology::LineList
+                } else {
+                    wgpu::PrimitiveTopology::TriangleList
+                },
+                front_face: match key.state.winding {
+                    Winding::Ccw => wgpu::FrontFace::Ccw,
+                    Winding::Cw => wgpu::FrontFace::Cw,
+                },
+                cull_mode: match key.state.cull {
+                    Cull::None => None,
+                    Cull::Back => Some(wgpu::Face::Back),
+                },
+                unclipped_depth: key.state.near_plane == NearPlane::Clamp,
+                ..Default::default()
+            },
+            depth_stencil: in_scene.then(|| depth_stencil(&key.state)),
+            multisample: wgpu::MultisampleState { count: if in_scene { key.samples } else { 1 }, ..Default::default() },
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some(entry.fragment),
+                compilation_options: Default::default(),
+                targets: &targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+fn compile(context: &Context, library: &Library) -> Result<HashMap<&'static str, wgpu::ShaderModule>, GpuError> {
+    let sources = library.load()?;
+    let modules = sources.into_iter().map(|(file, source)| {
+        let module = context.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(file),
+            source: wgpu::ShaderSource::Wgsl(source.text.into()),
+        });
+        (file, module)
+    });
+    Ok(modules.collect())
+}
+
+fn vertex_buffers(vertices: Vertices) -> &'static [Option<wgpu::VertexBufferLayout<'static>>] {
+    const POSITION: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+        array_stride: 12,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![0 => Float32x3],
+    };
+    const ATTRIBUTES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+        array_stride: size_of::<Attributes>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![1 => Float32x3, 2 => Float32x2, 3 => Unorm8x4, 4 => Float32],
+    };
+    const VOLUME: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+        array_stride: 16,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![0 => Float32x4],
+    };
+    match vertices {
+        Vertices::None => &[],
+        Vertices::Surface => &[Some(POSITION), Some(ATTRIBUTES)],
+        Vertices::Edges => &[Some(POSITION)],
+        Vertices::Volume => &[Some(VOLUME)],
+    }
+}
+
+fn blend(blend: Blend) -> Option<wgpu::BlendState> {
+    let one_and = |dst_factor| wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor,
+        operation: wgpu::BlendOperation::Add,
+    };
+    let both = |component| Some(wgpu::BlendState { color: component, alpha: component });
+    match blend {
+        Blend::Replace => None,
+        Blend::Add => both(one_and(wgpu::BlendFactor::One)),
+        Blend::Over => both(one_and(wgpu::BlendFactor::OneMinusSrcAlpha)),
+    }
+}
+
+fn depth_stencil(state: &State) -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format: DEPTH_FORMAT,
+        depth_write_enabled: Some(state.depth.write),
+        depth_compare: Some(compare(state.depth.compare)),
+        stencil: wgpu::StencilState {
+            front: stencil_face(&state.stencil.front),
+            back: stencil_face(&state.stencil.back),
+            read_mask: state.stencil.read_mask.into(),
+            write_mask: state.stencil.write_mask.into(),
+        },
+        bias: wgpu::DepthBiasState::default(),
+    }
+}
+
+fn stencil_face(face: &StencilFace) -> wgpu::StencilFaceState {
+    wgpu::StencilFaceState {
+        compare: compare(face.compare),
+        fail_op: stencil_op(face.fail),
+        depth_fail_op: stencil_op(face.depth_fail),
+        pass_op: stencil_op(face.pass),
+    }
+}
+
+fn compare(compare: Compare) -> wgpu::CompareFunction {
+    match compare {
+        Compare::Never => wgpu::CompareFunction::Never,
+        Compare::Always => wgpu::CompareFunction::Always,
+        Compare::Equal => wgpu::CompareFunction::Equal,
+        Compare::NotEqual => wgpu::CompareFunction::NotEqual,
+        Compare::Greater => wgpu::CompareFunction::Greater,
+        Compare::GreaterEqual => wgpu::CompareFunction::GreaterEqual,
+    }
+}
+
+fn stencil_op(op: StencilOp) -> wgpu::StencilOperation {
+    match op {
+        StencilOp::Keep => wgpu::StencilOperation::Keep,
+        StencilOp::IncrementWrap => wgpu::StencilOperation::IncrementWrap,
+        StencilOp::DecrementWrap => wgpu::StencilOperation::DecrementWrap,
+    }
+}

@@ -1,0 +1,98 @@
+//! Pictures and stencil values back from the device.
+
+use super::context::{Context, GpuError};
+use super::{FrameStats, Renderer};
+use crate::frame::FramePlan;
+use crate::scene::{Pose, Scene};
+
+/// The format pictures are drawn in without a window.
+pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+
+/// Draws the plan into a picture of its own and reads it back: sRGB, rows from the top, opaque.
+///
+/// # Errors
+/// What [`Renderer::render`] may return, or a device that does not answer.
+pub fn picture(
+    context: &Context,
+    renderer: &mut Renderer,
+    plan: &FramePlan,
+    scene: &Scene,
+    pose: &Pose,
+) -> Result<(FrameStats, image::RgbaImage), GpuError> {
+    let [width, height] = plan.size;
+    let texture = context.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("picture"),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: PICTURE_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    let mut stats = renderer.render(context, plan, scene, pose, &view, PICTURE_FORMAT)?;
+    let pixels = read(context, &texture, wgpu::TextureAspect::All, 4, plan.size)?;
+    stats.gpu_ms = renderer.gpu_ms();
+    if let Some(error) = context.take_error() {
+        return Err(GpuError::Device(error));
+    }
+    let image = image::RgbaImage::from_raw(width, height, pixels)
+        .ok_or_else(|| GpuError::Device("the picture came back with a wrong size".into()))?;
+    Ok((stats, image))
+}
+
+/// The stencil as the last frame left it, one byte a pixel, rows from the top; frames of one sample only.
+///
+/// # Errors
+/// No frame yet, several samples, or a device that does not answer.
+pub fn stencil(context: &Context, renderer: &Renderer) -> Result<Vec<u8>, GpuError> {
+    let targets = renderer.targets().ok_or_else(|| GpuError::Device("nothing was drawn yet".into()))?;
+    if targets.samples != 1 {
+        return Err(GpuError::Device("the stencil of several samples cannot be read".into()));
+    }
+    read(context, &targets.depth_stencil_texture, wgpu::TextureAspect::StencilOnly, 1, targets.size)
+}
+
+fn read(
+    context: &Context,
+    texture: &wgpu::Texture,
+    aspect: wgpu::TextureAspect,
+    texel: u32,
+    [width, height]: [u32; 2],
+) -> Result<Vec<u8>, GpuError> {
+    let row = width * texel;
+    let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = context.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("read back"),
+        size: u64::from(padded) * u64::from(height),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("read back") });
+    encoder.copy_texture_to_buffer(
+        wgpu::TexelCopyTextureInfo { texture, mip_level: 0, origin: wgpu::Origin3d::ZERO, aspect },
+        wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: None },
+        },
+        wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+    );
+    let submission = context.queue.submit([encoder.finish()]);
+    let (sender, receiver) = std::sync::mpsc::channel();
+    buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+        // The receiver is gone only when this function has returned with an error already.
+        let _ = sender.send(result);
+    });
+    context.wait(submission)?;
+    match receiver.try_recv() {
+        Ok(Ok(())) => {}
+        Ok(Err(error)) => return Err(GpuError::Device(error.to_string())),
+        Err(_) => return Err(GpuError::Device("the picture did not come back".into())),
+    }
+    let view = buffer.get_mapped_range(..).map_err(|error| GpuError::Device(error.to_string()))?;
+    let bytes: Vec<u8> = view.chunks_exact(padded as usize).flat_map(|line| &line[..row as usize]).copied().collect();
+    drop(view);
+    buffer.unmap();
+    Ok(bytes)
+}

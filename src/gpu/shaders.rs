@@ -1,0 +1,221 @@
+//! WGSL: embedded in the binary or read from a folder, put together, checked by naga first.
+//!
+//! A file is put together by `#include "path"` lines. Positions in errors are led back to the file
+//! and line they came from. [`PROGRAMS`] says which entry points each [`Program`] runs.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use super::context::GpuError;
+use crate::frame::Program;
+
+/// The files as they were when the program was built.
+const EMBEDDED: [(&str, &str); 12] = [
+    ("shared/frame.wgsl", include_str!("../../shaders/shared/frame.wgsl")),
+    ("shared/surface.wgsl", include_str!("../../shaders/shared/surface.wgsl")),
+    ("shared/full_screen.wgsl", include_str!("../../shaders/shared/full_screen.wgsl")),
+    ("shared/volume.wgsl", include_str!("../../shaders/shared/volume.wgsl")),
+    ("ambient.wgsl", include_str!("../../shaders/ambient.wgsl")),
+    ("lit.wgsl", include_str!("../../shaders/lit.wgsl")),
+    ("transparent.wgsl", include_str!("../../shaders/transparent.wgsl")),
+    ("verdict.wgsl", include_str!("../../shaders/verdict.wgsl")),
+    ("volume.wgsl", include_str!("../../shaders/volume.wgsl")),
+    ("wireframe.wgsl", include_str!("../../shaders/wireframe.wgsl")),
+    ("background.wgsl", include_str!("../../shaders/background.wgsl")),
+    ("output.wgsl", include_str!("../../shaders/output.wgsl")),
+];
+
+/// What vertices a program reads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Vertices {
+    /// None: the shader makes them.
+    None,
+    /// Positions and attributes of a mesh.
+    Surface,
+    /// Positions of a mesh, as line ends.
+    Edges,
+    /// Welded positions twice, with w = 1 and w = 0.
+    Volume,
+}
+
+/// One program's shaders.
+#[derive(Debug, Clone, Copy)]
+pub struct Entry {
+    /// Which.
+    pub program: Program,
+    /// The file.
+    pub file: &'static str,
+    /// The vertex entry point.
+    pub vertex: &'static str,
+    /// The fragment entry point.
+    pub fragment: &'static str,
+    /// What the vertex entry point reads.
+    pub vertices: Vertices,
+}
+
+const fn entry(program: Program, file: &'static str, vertex: &'static str, fragment: &'static str, vertices: Vertices) -> Entry {
+    Entry { program, file, vertex, fragment, vertices }
+}
+
+/// Every program, in the order of the enum.
+pub const PROGRAMS: [Entry; 12] = [
+    entry(Program::Background, "background.wgsl", "full_screen_vertex", "background", Vertices::None),
+    entry(Program::Ambient, "ambient.wgsl", "surface_vertex", "ambient", Vertices::Surface),
+    entry(Program::AmbientMasked, "ambient.wgsl", "surface_vertex", "ambient_masked", Vertices::Surface),
+    entry(Program::Lit, "lit.wgsl", "surface_vertex", "lit", Vertices::Surface),
+    entry(Program::Volume, "volume.wgsl", "volume_vertex", "volume_count", Vertices::Volume),
+    entry(Program::VolumeGlass, "volume.wgsl", "volume_vertex", "volume_glass", Vertices::Volume),
+    entry(Program::Verdict, "verdict.wgsl", "surface_vertex", "verdict", Vertices::Surface),
+    entry(Program::Transparent, "transparent.wgsl", "surface_vertex", "transparent", Vertices::Surface),
+    entry(Program::Wireframe, "wireframe.wgsl", "wireframe_vertex", "wireframe", Vertices::Edges),
+    entry(Program::StencilColors, "output.wgsl", "full_screen_vertex", "stencil_colors", Vertices::None),
+    entry(Program::ToneMap, "output.wgsl", "full_screen_vertex", "tone_map", Vertices::None),
+    entry(Program::Copy, "output.wgsl", "full_screen_vertex", "copy", Vertices::None),
+];
+
+/// The entry of a program.
+#[must_use]
+pub fn entry_of(program: Program) -> &'static Entry {
+    // The table is in the enum's order; a test holds it so.
+    &PROGRAMS[program as usize]
+}
+
+/// A file with its includes put in.
+#[derive(Debug, Clone)]
+pub struct Source {
+    /// The whole text.
+    pub text: String,
+    /// File and line of each line of `text`, from 1.
+    origin: Vec<(String, usize)>,
+}
+
+impl Source {
+    /// Parses and validates; the error is `file:line:column: message`.
+    ///
+    /// # Errors
+    /// What naga finds.
+    pub fn check(&self) -> Result<naga::Module, String> {
+        let module = naga::front::wgsl::parse_str(&self.text).map_err(|error| {
+            let location = error.location(&self.text).map(|at| (at.line_number as usize, at.line_position as usize));
+            self.locate(location, error.message())
+        })?;
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::all())
+            .validate(&module)
+            .map_err(|error| {
+                let location = error.location(&self.text).map(|at| (at.line_number as usize, at.line_position as usize));
+                let mut message = error.as_inner().to_string();
+                let mut cause: Option<&dyn std::error::Error> = std::error::Error::source(error.as_inner());
+                while let Some(inner) = cause {
+                    message.push_str(": ");
+                    message.push_str(&inner.to_string());
+                    cause = inner.source();
+                }
+                self.locate(location, &message)
+            })?;
+        Ok(module)
+    }
+
+    fn locate(&self, at: Option<(usize, usize)>, message: &str) -> String {
+        let message = message.lines().next().unwrap_or("unknown error");
+        match at.and_then(|(line, column)| Some((self.origin.get(line.checked_sub(1)?)?, column))) {
+            Some(((file, line), column)) => format!("{file}:{line}:{column}: {message}"),
+            None => {
+                let file = self.origin.last().map_or("shader", |(file, _)| file.as_str());
+                format!("{file}: {message}")
+            }
+        }
+    }
+}
+
+/// Where shader text comes from.
+#[derive(Debug)]
+pub struct Library {
+    folder: Option<PathBuf>,
+    stamps: HashMap<PathBuf, Option<SystemTime>>,
+}
+
+impl Library {
+    /// Embedded files, or those of `folder` with the embedded ones for what it lacks.
+    #[must_use]
+    pub fn new(folder: Option<&Path>) -> Self {
+        let mut library = Self { folder: folder.map(Path::to_path_buf), stamps: HashMap::new() };
+        library.changed();
+        library
+    }
+
+    /// Whether a file of the folder changed since the last call.
+    pub fn changed(&mut self) -> bool {
+        let Some(folder) = &self.folder else { return false };
+        let mut changed = false;
+        for (name, _) in EMBEDDED {
+            let path = folder.join(name);
+            let stamp = std::fs::metadata(&path).and_then(|data| data.modified()).ok();
+            changed |= self.stamps.insert(path, stamp).is_some_and(|before| before != stamp);
+        }
+        changed
+    }
+
+    /// Every file that programs name, put together and checked.
+    ///
+    /// # Errors
+    /// The first file's first error, with its place.
+    pub fn load(&self) -> Result<HashMap<&'static str, Source>, GpuError> {
+        let mut sources = HashMap::new();
+        for entry in PROGRAMS {
+            if !sources.contains_key(entry.file) {
+                let source = self.source(entry.file).map_err(GpuError::Shader)?;
+                source.check().map_err(GpuError::Shader)?;
+                sources.insert(entry.file, source);
+            }
+        }
+        Ok(sources)
+    }
+
+    /// One file with its includes put in; the error says where.
+    ///
+    /// # Errors
+    /// A file that is not there or cannot be read, an include that is not there or includes itself.
+    pub fn source(&self, file: &str) -> Result<Source, String> {
+        let mut source = Source { text: String::new(), origin: Vec::new() };
+        self.include(file, &mut Vec::new(), &mut source)?;
+        Ok(source)
+    }
+
+    fn include(&self, file: &str, stack: &mut Vec<String>, source: &mut Source) -> Result<(), String> {
+        if stack.iter().any(|open| open == file) {
+            return Err(format!("{file}: includes itself"));
+        }
+        let text = self.read(file)?;
+        stack.push(file.into());
+        for (number, line) in text.lines().enumerate() {
+            if let Some(rest) = line.trim().strip_prefix("#include") {
+                let path = rest.trim().trim_matches('"');
+                let there = EMBEDDED.iter().any(|(name, _)| *name == path);
+                if !there {
+                    return Err(format!("{file}:{}:1: no shader file `{path}` to include", number + 1));
+                }
+                self.include(path, stack, source)?;
+            } else {
+                source.text.push_str(line);
+                source.text.push('\n');
+                source.origin.push((file.into(), number + 1));
+            }
+        }
+        stack.pop();
+        Ok(())
+    }
+
+    fn read(&self, file: &str) -> Result<String, String> {
+        if let Some(path) = self.folder.as_ref().map(|folder| folder.join(file))
+            && path.exists()
+        {
+            return std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()));
+        }
+        EMBEDDED
+            .iter()
+            .find(|(name, _)| *name == file)
+            .map(|(_, text)| (*text).to_owned())
+            .ok_or_else(|| format!("{file}: no such shader file"))
+    }
+}

@@ -1,0 +1,126 @@
+//! Every struct shared with WGSL. A test compares each field's offset with naga's layout of the
+//! struct of the same name in `shaders/shared/`.
+
+use bytemuck::{Pod, Zeroable};
+
+/// `struct Frame` of `shared/frame.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
+pub struct Frame {
+    /// World space, metres.
+    pub eye: [f32; 3],
+    /// Times linear colour.
+    pub exposure: f32,
+    /// Linear radiance.
+    pub ambient_sky: [f32; 3],
+    /// 1 or 0.
+    pub smooth_terminator: f32,
+    /// Linear radiance.
+    pub ambient_ground: [f32; 3],
+    /// How many of `lights` shine.
+    pub light_count: u32,
+    /// Linear.
+    pub background_top: [f32; 3],
+    #[doc(hidden)]
+    pub _pad0: f32,
+    /// Linear.
+    pub background_bottom: [f32; 3],
+    #[doc(hidden)]
+    pub _pad1: f32,
+    /// Pixels.
+    pub size: [f32; 2],
+    #[doc(hidden)]
+    pub _pad2: [f32; 2],
+}
+
+/// `struct Object` of `shared/frame.wgsl`; matrices by columns.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
+pub struct Object {
+    /// The one matrix that places vertices on screen.
+    pub clip_from_object: [[f32; 4]; 4],
+    /// Metres.
+    pub world_from_object: [[f32; 4]; 4],
+    /// Inverse transpose, unnormalised.
+    pub normal_from_object: [[f32; 4]; 4],
+}
+
+/// `struct Light` of `shared/frame.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
+pub struct Light {
+    /// World space.
+    pub position: [f32; 3],
+    /// 0 where it has no end.
+    pub inverse_range_squared: f32,
+    /// Unit, where it shines to.
+    pub direction: [f32; 3],
+    /// Of a spot's outer half angle.
+    pub cos_outer: f32,
+    /// Linear RGB, candela or lux.
+    pub intensity: [f32; 3],
+    /// 1 / (cos inner - cos outer).
+    pub inverse_cone_width: f32,
+    /// 0 point, 1 directional, 2 spot.
+    pub kind: u32,
+    #[doc(hidden)]
+    pub _pad: [u32; 3],
+}
+
+/// `struct Volume` of `shared/frame.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
+pub struct Volume {
+    /// The light in the caster's object space, homogeneous.
+    pub light_in_object: [f32; 4],
+    /// The caster's instance number.
+    pub object: u32,
+    #[doc(hidden)]
+    pub _pad: [u32; 3],
+}
+
+/// `struct Draw` of `shared/frame.wgsl`: one a step, at a dynamic offset.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
+pub struct Draw {
+    /// Linear RGBA.
+    pub constant: [f32; 4],
+    /// The light looked at.
+    pub light: u32,
+    #[doc(hidden)]
+    pub _pad: [u32; 3],
+}
+
+/// `struct Material` of `shared/surface.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
+pub struct Material {
+    /// Linear, with alpha.
+    pub base_color: [f32; 4],
+    /// Linear radiance.
+    pub emissive: [f32; 3],
+    /// 0 to 1.
+    pub roughness: f32,
+    /// 0 to 1.
+    pub metallic: f32,
+    /// Of masked materials.
+    pub cutoff: f32,
+    /// 1 or 0.
+    pub unlit: f32,
+    #[doc(hidden)]
+    pub _pad: f32,
+}
+
+/// What a surface vertex has beside its position, interleaved.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
+pub struct Attributes {
+    /// Unit, object space.
+    pub normal: [f32; 3],
+    /// Of the base colour texture.
+    pub uv: [f32; 2],
+    /// Linear RGBA, 0 to 255 for 0 to 1.
+    pub color: [u8; 4],
+    /// Sine of the terminator bound.
+    pub sin_bound: f32,
+}

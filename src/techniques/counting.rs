@@ -1,0 +1,249 @@
+//! From one decision per caster to the steps that put a light's count into the stencil.
+//!
+//! Every volume's parts are grouped by the state they need (method, part, winding), so that a frame
+//! has a handful of counting steps a light however many casters there are.
+
+use glam::DVec3;
+
+use super::Row;
+use crate::frame::plan::View;
+use crate::frame::state::{Cull, Depth, NearPlane, State, Winding};
+use crate::frame::stencil::{BitBudget, StencilState};
+use crate::frame::{Action, Capabilities, Draw, DrawSet, Method, Part, Program, Reason, Step, Target, VolumePart, VolumePlan};
+use crate::geometry::eye_count::{EyeCount, holding_count};
+use crate::geometry::frustum::NearPyramid;
+use crate::geometry::light_in_object;
+use crate::scene::{AlphaMode, Mesh, Node, Pose, PosedLight, Scene};
+
+/// One caster before one light, as a technique's `decide` sees it.
+pub struct Caster<'a> {
+    /// The device.
+    pub capabilities: &'a Capabilities,
+    /// The scene it stands in.
+    pub scene: &'a Scene,
+    /// And where everything is now.
+    pub pose: &'a Pose,
+    /// The view it is counted for.
+    pub view: &'a View,
+    /// Eye and near rectangle of that view.
+    pub near_pyramid: &'a NearPyramid,
+    /// Its number among the scene's instances.
+    pub instance: usize,
+    /// Its node's number.
+    pub node_index: usize,
+    /// Its node.
+    pub node: &'a Node,
+    /// Its mesh.
+    pub mesh: &'a Mesh,
+    /// The light.
+    pub light: &'a PosedLight,
+}
+
+impl Caster<'_> {
+    /// Whether the caster may reach into the pyramid between the eye and the near rectangle, or hold
+    /// the eye. Conservative: may say yes wrongly, never no.
+    #[must_use]
+    pub fn across_near_plane(&self) -> bool {
+        let bounds = self.pose.bounds(self.scene, self.node_index);
+        self.near_pyramid.may_touch(&bounds, &self.pose.world_from_object[self.node_index])
+    }
+
+    /// Whether every light-facing triangle of the caster is in the depth buffer, or something nearer
+    /// is: its materials are opaque and either drawn from both sides, or the mesh is solid, so that
+    /// a triangle seen from behind always has one seen from the front before it.
+    #[must_use]
+    pub fn surface_covers(&self) -> bool {
+        let solid = self.mesh.topology.report().is_solid();
+        self.mesh.primitives.iter().filter(|primitive| primitive.casts_shadow).all(|primitive| {
+            let material = &self.scene.materials[primitive.material];
+            material.alpha == AlphaMode::Opaque && (material.double_sided || solid)
+        })
+    }
+
+    /// How many of this caster's volumes hold the eye; `None` where rounding could decide.
+    #[must_use]
+    pub fn holds_eye(&self) -> Option<i32> {
+        let world_from_object = self.pose.world_from_object[self.node_index];
+        let eye = world_from_object.inverse().transform_point3(self.view.camera.eye);
+        let light = light_in_object(&world_from_object, self.light);
+        let bounds = self.pose.bounds(self.scene, self.node_index);
+        let toward = if light.w == 0.0 { light.truncate() } else { light.truncate() - eye };
+        let reach = if light.w == 0.0 { f64::INFINITY } else { 1.0 };
+        if !bounds.meets_segment(eye, toward, reach) {
+            return Some(0);
+        }
+        let topology = &self.mesh.topology;
+        match holding_count(topology, self.pose.positions(self.scene, self.node_index), light, eye) {
+            EyeCount::Count(count) => Some(count),
+            EyeCount::Ambiguous => None,
+        }
+    }
+
+    /// Whether any of it lies within the light's range.
+    #[must_use]
+    pub fn in_range(&self) -> bool {
+        let bounds = self.pose.bounds(self.scene, self.node_index).transformed(&self.pose.world_from_object[self.node_index]);
+        let nearest: DVec3 = self.light.position.clamp(bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        !self.light.range.is_finite() || nearest.distance(self.light.position) <= self.light.range
+    }
+
+    /// The front's winding on screen.
+    #[must_use]
+    pub fn winding(&self) -> Winding {
+        self.view.winding.through(self.pose.world_from_object[self.node_index].matrix3.determinant())
+    }
+}
+
+/// The volumes of one light, decided.
+#[derive(Debug, Default)]
+pub struct LightCount {
+    /// What the stencil must hold everywhere before the first volume: how many of the volumes that
+    /// are counted from the eye hold the eye, modulo the field.
+    pub base: u8,
+    /// The counting steps, in order.
+    pub steps: Vec<Step>,
+}
+
+/// Casters of `light` in `view`, each decided by `row`; their plans are appended to `volumes`.
+pub fn count_light(
+    row: &Row,
+    casters: &[Caster<'_>],
+    light: usize,
+    scissor: [u32; 4],
+    budget: BitBudget,
+    volumes: &mut Vec<VolumePlan>,
+) -> LightCount {
+    let first = volumes.len();
+    for caster in casters {
+        let decided = if caster.in_range() { (row.decide)(caster) } else { Some((Method::Dropped, Reason::OutOfRange)) };
+        let Some((method, reason)) = decided else { continue };
+        let holds_eye = if method == Method::ExactZPass { caster.holds_eye().unwrap_or(0) } else { 0 };
+        volumes.push(VolumePlan { instance: caster.instance, light, method, reason, holds_eye, winding: caster.winding() });
+    }
+    let base = volumes[first..].iter().map(|volume| volume.holds_eye).fold(0u8, |sum, count| {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the count is modulo the field")]
+        sum.wrapping_add(count as u8)
+    }) & budget.count_mask;
+
+    let mut steps = Vec::new();
+    for group in GROUPS {
+        for winding in [Winding::Ccw, Winding::Cw] {
+            let parts: Vec<_> = volumes
+                .iter()
+                .enumerate()
+                .skip(first)
+                .filter(|(_, volume)| volume.method == group.method && volume.winding == winding)
+                .flat_map(|(index, _)| group.parts.iter().map(move |&part| VolumePart { volume: index, part }))
+                .collect();
+            if !parts.is_empty() {
+                steps.push(group.step(light, winding, scissor, budget, parts));
+            }
+        }
+    }
+    LightCount { base, steps }
+}
+
+/// Parts of volumes that are counted by the same state.
+struct Group {
+    method: Method,
+    parts: &'static [Part],
+    label: &'static str,
+    why: &'static str,
+    stencil: fn(BitBudget) -> StencilState,
+    depth: Depth,
+    near_plane: NearPlane,
+}
+
+const GROUPS: [Group; 7] = [
+    Group {
+        method: Method::ZPass,
+        parts: &[Part::Sides],
+        label: "count sides, z-pass",
+        why: "Faces before the surface: entering counts up, leaving counts down.",
+        stencil: StencilState::count_z_pass,
+        depth: Depth::NEARER,
+        near_plane: NearPlane::Clip,
+    },
+    Group {
+        method: Method::ExactZPass,
+        parts: &[Part::Sides],
+        label: "count sides, exact z-pass",
+        why: "Faces before the surface, under depth clamp so that the near plane cuts none off; the stencil starts at the eye's count.",
+        stencil: StencilState::count_z_pass,
+        depth: Depth::NEARER,
+        near_plane: NearPlane::Clamp,
+    },
+    Group {
+        method: Method::ZFail,
+        parts: &[Part::Sides, Part::DarkCap],
+        label: "count sides and dark caps, z-fail",
+        why: "Faces behind the surface, from infinity towards the eye.",
+        stencil: StencilState::count_z_fail,
+        depth: Depth::NEARER,
+        near_plane: NearPlane::Clip,
+    },
+    Group {
+        method: Method::ZFail,
+        parts: &[Part::LightCapKept],
+        label: "count light caps, z-fail",
+        why: "The caster's own surface is in the depth buffer, so its light cap can never be nearer: it counts everywhere.",
+        stencil: StencilState::count_z_fail,
+        depth: Depth::NEVER,
+        near_plane: NearPlane::Clip,
+    },
+    Group {
+        method: Method::ZFail,
+        parts: &[Part::LightCapTurned],
+        label: "count turned light caps, z-fail",
+        why: "Triangles of open casters that face away from the light cast too: the same order of vertices, the operations swapped.",
+        stencil: StencilState::count_z_fail_turned,
+        depth: Depth::NEVER,
+        near_plane: NearPlane::Clip,
+    },
+    Group {
+        method: Method::ZFailCompared,
+        parts: &[Part::Sides, Part::DarkCap, Part::LightCapKept],
+        label: "count whole volumes, z-fail",
+        why: "The caster's surface may be missing from the depth buffer, so its light cap is compared with depth.",
+        stencil: StencilState::count_z_fail,
+        depth: Depth::NEARER,
+        near_plane: NearPlane::Clip,
+    },
+    Group {
+        method: Method::ZFailCompared,
+        parts: &[Part::LightCapTurned],
+        label: "count turned light caps, z-fail, compared",
+        why: "Triangles of open casters turned to face the light: the same order of vertices, the operations swapped.",
+        stencil: StencilState::count_z_fail_turned,
+        depth: Depth::NEARER,
+        near_plane: NearPlane::Clip,
+    },
+];
+
+impl Group {
+    fn step(&self, light: usize, winding: Winding, scissor: [u32; 4], budget: BitBudget, parts: Vec<VolumePart>) -> Step {
+        let mirrored = if winding == Winding::Cw { ", mirrored" } else { "" };
+        Step {
+            label: format!("light {light}: {}{mirrored}", self.label),
+            why: self.why.into(),
+            view: 0,
+            action: Action::Draw(Box::new(Draw {
+                program: Program::Volume,
+                target: Target::Scene,
+                state: State {
+                    depth: self.depth,
+                    stencil: (self.stencil)(budget),
+                    color: None,
+                    cull: Cull::None,
+                    winding,
+                    near_plane: self.near_plane,
+                },
+                stencil_reference: 0,
+                scissor,
+                light: Some(light),
+                constant: [0.0; 4],
+                set: DrawSet::Volumes(parts),
+            })),
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! The table of techniques: one row, one file, one shader twin each.
+//!
+//! A counting technique decides, for one light, how each caster's shadow volume is counted
+//! ([`crate::frame::Method`]) and why; [`counting`] turns those decisions into steps. What all
+//! techniques share lives there, what makes each different lives in its own file.
+
+pub mod counting;
+mod exact_z_pass;
+mod none;
+pub mod show;
+pub mod surfaces;
+mod z_fail;
+mod z_pass;
+
+use crate::frame::{Method, Reason};
+use crate::settings::Technique;
+
+pub use counting::Caster;
+
+/// One technique, for people and for the director.
+pub struct Row {
+    /// Which.
+    pub technique: Technique,
+    /// A few words.
+    pub title: &'static str,
+    /// One sentence: what it does.
+    pub about: &'static str,
+    /// True where every pixel is right on every scene.
+    pub exact: bool,
+    /// Paper and section.
+    pub source: &'static str,
+    /// How one caster is counted, and why; `None` leaves all shadows out.
+    pub decide: fn(&Caster<'_>) -> Option<(Method, Reason)>,
+}
+
+/// Every technique, in the order of [`Technique::ALL`].
+pub static TABLE: [Row; 4] = [none::ROW, z_pass::ROW, z_fail::ROW, exact_z_pass::ROW];
+
+/// The row of a technique.
+#[must_use]
+pub fn row(technique: Technique) -> &'static Row {
+    match technique {
+        Technique::None => &TABLE[0],
+        Technique::ZPass => &TABLE[1],
+        Technique::ZFail => &TABLE[2],
+        Technique::ExactZPass => &TABLE[3],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_lists_every_technique_once_in_order() {
+        let listed: Vec<_> = TABLE.iter().map(|row| row.technique).collect();
+        assert_eq!(listed, Technique::ALL);
+        for technique in Technique::ALL {
+            assert_eq!(row(technique).technique, technique);
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Steps that show what is otherwise unseen, and the last one of every frame: the picture itself.
+
+use crate::frame::plan::VolumePlan;
+use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
+use crate::frame::stencil::StencilState;
+use crate::frame::{Action, Draw, DrawSet, Method, Part, Program, Step, Target, VolumePart};
+
+/// The gradient behind everything: drawn at infinity, so only where no surface is.
+#[must_use]
+pub fn background(scissor: [u32; 4]) -> Step {
+    let why = "A gradient at infinity: it shows only where no surface laid depth.";
+    full_screen("background", why, Program::Background, Target::Scene, Depth::NOTHING_THERE, scissor)
+}
+
+/// One light's volumes as coloured glass over the picture (M image 2).
+#[must_use]
+pub fn volumes(plans: &[VolumePlan], light: usize, scissor: [u32; 4]) -> Vec<Step> {
+    let mut steps = Vec::new();
+    for winding in [Winding::Ccw, Winding::Cw] {
+        let parts: Vec<_> = plans
+            .iter()
+            .enumerate()
+            .filter(|(_, plan)| plan.light == light && plan.method != Method::Dropped && plan.winding == winding)
+            .flat_map(|(volume, _)| {
+                [Part::Sides, Part::LightCapKept, Part::LightCapTurned].map(|part| VolumePart { volume, part })
+            })
+            .collect();
+        if parts.is_empty() {
+            continue;
+        }
+        steps.push(Step {
+            label: format!("light {light}: volumes as glass"),
+            why: "Shows where the light's shadow volumes run: every layer of glass is one face the eye looks through.".into(),
+            view: 0,
+            action: Action::Draw(Box::new(Draw {
+                program: Program::VolumeGlass,
+                target: Target::Scene,
+                state: State {
+                    depth: Depth::NEARER,
+                    stencil: StencilState::IGNORE,
+                    color: Some(Blend::Over),
+                    cull: Cull::None,
+                    winding,
+                    near_plane: NearPlane::Clip,
+                },
+                stencil_reference: 0,
+                scissor,
+                light: Some(light),
+                constant: [0.45, 0.16, 0.75, 0.16],
+                set: DrawSet::Volumes(parts),
+            })),
+        });
+    }
+    steps
+}
+
+/// Every triangle's edges.
+#[must_use]
+pub fn wireframe(instances: usize, scissor: [u32; 4]) -> Step {
+    Step {
+        label: "wireframe".into(),
+        why: "Draws every triangle's edges, pulled a hair towards the eye so that their own surface does not hide them.".into(),
+        view: 0,
+        action: Action::Draw(Box::new(Draw {
+            program: Program::Wireframe,
+            target: Target::Scene,
+            state: State {
+                depth: Depth::ON_OR_NEARER,
+                stencil: StencilState::IGNORE,
+                color: Some(Blend::Over),
+                cull: Cull::None,
+                winding: Winding::Ccw,
+                near_plane: NearPlane::Clip,
+            },
+            stencil_reference: 0,
+            scissor,
+            light: None,
+            constant: [0.85, 0.95, 1.0, 0.55],
+            set: DrawSet::Edges((0..instances).collect()),
+        })),
+    }
+}
+
+/// One light's count in false colour, with a legend.
+#[must_use]
+pub fn stencil_colors(scissor: [u32; 4]) -> Step {
+    full_screen(
+        "stencil in false colour",
+        "Reads the stencil and gives each count a colour; the legend names them.",
+        Program::StencilColors,
+        Target::Output,
+        Depth::IGNORE,
+        scissor,
+    )
+}
+
+/// Exposure and tone curve: linear light becomes the picture.
+#[must_use]
+pub fn tone_map(scissor: [u32; 4]) -> Step {
+    full_screen(
+        "tone map",
+        "Exposure and tone curve: linear light becomes the picture.",
+        Program::ToneMap,
+        Target::Output,
+        Depth::IGNORE,
+        scissor,
+    )
+}
+
+/// Display values as they are, for pictures that other programs read.
+#[must_use]
+pub fn copy(scissor: [u32; 4]) -> Step {
+    full_screen(
+        "copy",
+        "Values go to the picture as they are, for other programs to read.",
+        Program::Copy,
+        Target::Output,
+        Depth::IGNORE,
+        scissor,
+    )
+}
+
+fn full_screen(label: &str, why: &str, program: Program, target: Target, depth: Depth, scissor: [u32; 4]) -> Step {
+    Step {
+        label: label.into(),
+        why: why.into(),
+        view: 0,
+        action: Action::Draw(Box::new(Draw {
+            program,
+            target,
+            state: State {
+                depth,
+                stencil: StencilState::IGNORE,
+                color: Some(Blend::Replace),
+                cull: Cull::None,
+                winding: Winding::Ccw,
+                near_plane: NearPlane::Clip,
+            },
+            stencil_reference: 0,
+            scissor,
+            light: None,
+            constant: [0.0; 4],
+            set: DrawSet::FullScreen,
+        })),
+    }
+}

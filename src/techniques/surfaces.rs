@@ -1,0 +1,197 @@
+//! Steps that draw the scene's surfaces: ambient light, one light, blended ones, a light's verdict.
+//!
+//! Surfaces are grouped by the state they need: culled or drawn from both sides, wound straight or
+//! mirrored, masked or not. Most scenes have one group.
+
+use crate::frame::plan::View;
+use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
+use crate::frame::stencil::{BitBudget, StencilState};
+use crate::frame::{Action, Draw, DrawSet, Program, Step, Surface, Target};
+use crate::scene::{AlphaMode, Pose, Scene};
+
+/// Surfaces that share cull, winding and masking.
+#[derive(Debug)]
+pub struct SurfaceGroup {
+    cull: Cull,
+    winding: Winding,
+    masked: bool,
+    surfaces: Vec<Surface>,
+}
+
+/// The scene's opaque and masked surfaces, grouped.
+#[must_use]
+pub fn opaque_groups(scene: &Scene, pose: &Pose, view: &View) -> Vec<SurfaceGroup> {
+    let mut groups: Vec<SurfaceGroup> = Vec::new();
+    for (cull, winding, alpha, surface) in described(scene, pose, view) {
+        if alpha == AlphaMode::Blend {
+            continue;
+        }
+        let masked = alpha != AlphaMode::Opaque;
+        match groups.iter_mut().find(|group| group.cull == cull && group.winding == winding && group.masked == masked) {
+            Some(group) => group.surfaces.push(surface),
+            None => groups.push(SurfaceGroup { cull, winding, masked, surfaces: vec![surface] }),
+        }
+    }
+    groups
+}
+
+fn described<'a>(
+    scene: &'a Scene,
+    pose: &'a Pose,
+    view: &'a View,
+) -> impl Iterator<Item = (Cull, Winding, AlphaMode, Surface)> + 'a {
+    scene.instances().enumerate().flat_map(move |(instance, (node, _, mesh))| {
+        let winding = view.winding.through(pose.world_from_object[node].matrix3.determinant());
+        mesh.primitives.iter().enumerate().map(move |(primitive, part)| {
+            let material = &scene.materials[part.material];
+            let cull = if material.double_sided { Cull::None } else { Cull::Back };
+            (cull, winding, material.alpha, Surface { instance, primitive })
+        })
+    })
+}
+
+fn step(label: String, why: &str, draw: Draw) -> Step {
+    Step { label, why: why.into(), view: 0, action: Action::Draw(Box::new(draw)) }
+}
+
+/// Ambient and emitted light; lays the depth that everything after is tested against.
+#[must_use]
+pub fn ambient(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
+    let draw = |group: &SurfaceGroup| Draw {
+        program: if group.masked { Program::AmbientMasked } else { Program::Ambient },
+        target: Target::Scene,
+        state: State {
+            depth: Depth::LAY,
+            stencil: StencilState::IGNORE,
+            color: Some(Blend::Replace),
+            cull: group.cull,
+            winding: group.winding,
+            near_plane: NearPlane::Clip,
+        },
+        stencil_reference: 0,
+        scissor,
+        light: None,
+        constant: [0.0; 4],
+        set: DrawSet::Surfaces(group.surfaces.clone()),
+    };
+    let why = "Draws every surface in ambient and emitted light and lays the depth that all later steps are tested against.";
+    groups.iter().map(|group| step(format!("ambient{}", group.words()), why, draw(group))).collect()
+}
+
+/// One light, added where its count is zero.
+#[must_use]
+pub fn lit(groups: &[SurfaceGroup], light: usize, scissor: [u32; 4], stencil: StencilState) -> Vec<Step> {
+    let draw = |group: &SurfaceGroup| Draw {
+        program: Program::Lit,
+        target: Target::Scene,
+        state: group.again(Blend::Add, stencil),
+        stencil_reference: 0,
+        scissor,
+        light: Some(light),
+        constant: [0.0; 4],
+        set: DrawSet::Surfaces(group.surfaces.clone()),
+    };
+    let why = "Adds the light where no volume holds the surface: where the count is zero.";
+    groups.iter().map(|group| step(format!("light {light}: add{}", group.words()), why, draw(group))).collect()
+}
+
+/// One light's verdict in exact values: white where the count is zero, black where it is not.
+#[must_use]
+pub fn verdict(groups: &[SurfaceGroup], light: usize, scissor: [u32; 4], budget: BitBudget) -> Vec<Step> {
+    let verdicts = [
+        ("lit", StencilState::count_equals(budget), 1.0, "White where the count is zero, within the light's range."),
+        ("shadow", StencilState::count_differs(budget), 0.0, "Black where the count is not zero, within the light's range."),
+    ];
+    let mut steps = Vec::new();
+    for (name, stencil, value, why) in verdicts {
+        for group in groups {
+            let draw = Draw {
+                program: Program::Verdict,
+                target: Target::Scene,
+                state: group.again(Blend::Replace, stencil),
+                stencil_reference: 0,
+                scissor,
+                light: Some(light),
+                constant: [value, value, value, 1.0],
+                set: DrawSet::Surfaces(group.surfaces.clone()),
+            };
+            steps.push(step(format!("light {light}: {name}{}", group.words()), why, draw));
+        }
+    }
+    steps
+}
+
+/// Blended surfaces, far to near, in every light, unshadowed.
+#[must_use]
+pub fn transparent(scene: &Scene, pose: &Pose, view: &View, scissor: [u32; 4]) -> Vec<Step> {
+    let nodes: Vec<_> = scene.instances().map(|(node, ..)| node).collect();
+    let mut blended: Vec<_> = described(scene, pose, view)
+        .filter(|(_, _, alpha, _)| *alpha == AlphaMode::Blend)
+        .map(|(cull, winding, _, surface)| {
+            let node = nodes[surface.instance];
+            let center = pose.bounds(scene, node).transformed(&pose.world_from_object[node]).center();
+            (center.as_dvec3().distance_squared(view.camera.eye), cull, winding, surface)
+        })
+        .collect();
+    blended.sort_by(|a, b| b.0.total_cmp(&a.0));
+
+    let mut groups: Vec<SurfaceGroup> = Vec::new();
+    for (_, cull, winding, surface) in blended {
+        match groups.last_mut().filter(|group| group.cull == cull && group.winding == winding) {
+            Some(group) => group.surfaces.push(surface),
+            None => groups.push(SurfaceGroup { cull, winding, masked: false, surfaces: vec![surface] }),
+        }
+    }
+    let why = "Blended surfaces, far to near, over the finished picture; they receive no shadows and cast none.";
+    groups
+        .into_iter()
+        .map(|group| {
+            let state = State {
+                depth: Depth::NEARER,
+                stencil: StencilState::IGNORE,
+                color: Some(Blend::Over),
+                cull: group.cull,
+                winding: group.winding,
+                near_plane: NearPlane::Clip,
+            };
+            let label = format!("blended{}", group.words());
+            let draw = Draw {
+                program: Program::Transparent,
+                target: Target::Scene,
+                state,
+                stencil_reference: 0,
+                scissor,
+                light: None,
+                constant: [0.0; 4],
+                set: DrawSet::Surfaces(group.surfaces),
+            };
+            step(label, why, draw)
+        })
+        .collect()
+}
+
+impl SurfaceGroup {
+    /// Drawn again over its own depth.
+    fn again(&self, blend: Blend, stencil: StencilState) -> State {
+        State {
+            depth: Depth::SAME_SURFACE,
+            stencil,
+            color: Some(blend),
+            cull: self.cull,
+            winding: self.winding,
+            near_plane: NearPlane::Clip,
+        }
+    }
+
+    fn words(&self) -> String {
+        let mut words = String::new();
+        for (there, word) in
+            [(self.cull == Cull::None, ", both sides"), (self.winding == Winding::Cw, ", mirrored"), (self.masked, ", masked")]
+        {
+            if there {
+                words.push_str(word);
+            }
+        }
+        words
+    }
+}

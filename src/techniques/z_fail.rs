@@ -1,0 +1,37 @@
+//! Z-fail (Carmack 2000; M section 3; L "Rendering Shadow Volumes").
+//!
+//! The same count taken from the other end: from infinity towards the eye, faces *behind* the
+//! surface are counted, those that fail the depth test. Nothing between the eye and the surface
+//! matters, so the near plane cannot spoil it; but now the volume must be closed, with a light cap
+//! (the caster's light-facing triangles) and a dark cap (the same, at infinity). The projection has
+//! no far plane (DESIGN section 3), so nothing is cut off there either.
+//!
+//! The light cap lies on the caster's own surface. Where that surface is surely in the depth
+//! buffer, no cap fragment can be nearer than what is stored, so the cap is drawn with depth
+//! compare Never and counts everywhere. Where it may be missing (culled from behind, masked,
+//! before the near plane) the depth test must decide; cap and surface share vertex order and
+//! position arithmetic, so that equal depth is equal to the last bit.
+
+use super::{Caster, Row};
+use crate::frame::{Method, Reason};
+use crate::settings::Technique;
+
+pub(super) const ROW: Row = Row {
+    technique: Technique::ZFail,
+    title: "Z-fail",
+    about: "Counts volume faces behind the surface; exact everywhere, pays for caps.",
+    exact: true,
+    source: "Carmack 2000; McGuire et al. 2003, 3; Lengyel 2002, Rendering Shadow Volumes",
+    decide: |caster| Some(decide(caster)),
+};
+
+/// Z-fail for one caster: how its light cap must be drawn.
+pub(super) fn decide(caster: &Caster<'_>) -> (Method, Reason) {
+    if caster.across_near_plane() {
+        (Method::ZFailCompared, Reason::AcrossNearPlane)
+    } else if !caster.surface_covers() {
+        (Method::ZFailCompared, Reason::SurfaceMayBeMissing)
+    } else {
+        (Method::ZFail, Reason::SurfaceCovers)
+    }
+}

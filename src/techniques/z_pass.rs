@@ -1,0 +1,28 @@
+//! Z-pass (Heidmann 1991; K section 6, L "Rendering Shadow Volumes", C "Z-Pass Algorithm").
+//!
+//! From the eye to the surface, faces of shadow volumes are counted: one more where the ray enters
+//! a volume, one less where it leaves. A count above zero means the surface is inside.
+//!
+//! ```text
+//!            light *
+//!                 / \        caster
+//!   eye          /###\
+//!    o--------->/-+1--\--1--------> surface: count 0, lit
+//!     `--------/+1-----\- - - x     surface inside: count 1, shadow
+//! ```
+//!
+//! It is wrong, on purpose, where the near plane cuts a volume: faces before the near plane are
+//! clipped and go uncounted, so an eye that stands in a shadow starts with a wrong count.
+
+use super::Row;
+use crate::frame::{Method, Reason};
+use crate::settings::Technique;
+
+pub(super) const ROW: Row = Row {
+    technique: Technique::ZPass,
+    title: "Z-pass",
+    about: "Counts volume faces in front of the surface; wrong where the near plane cuts a volume.",
+    exact: false,
+    source: "Heidmann 1991; Kilgard 1999, 6; Lengyel 2002, Rendering Shadow Volumes",
+    decide: |_| Some((Method::ZPass, Reason::Technique)),
+};

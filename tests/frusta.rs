@@ -1,0 +1,102 @@
+//! The near pyramid and the lights' rectangles never leave out what is there.
+#![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
+
+use glam::{DAffine3, DMat4, DQuat, DVec3, DVec4, Vec3};
+use obscura::frame::Camera;
+use obscura::geometry::Aabb;
+use obscura::geometry::frustum::{NearPyramid, screen_rect};
+use proptest::prelude::*;
+
+fn vector(size: f64) -> impl Strategy<Value = DVec3> {
+    prop::array::uniform3(-size..size).prop_map(DVec3::from)
+}
+
+fn camera() -> impl Strategy<Value = Camera> {
+    (vector(5.0), vector(5.0), 0.2..2.5f64, 0.5..2.0f64, 0.05..2.0f64)
+        .prop_filter_map("eye and target in one place", |(eye, target, fov, aspect, near)| {
+            Camera::look_at(eye, target, fov, aspect, near).ok()
+        })
+}
+
+fn near_corners(camera: &Camera) -> [DVec3; 4] {
+    let up = camera.up * (camera.vertical_fov / 2.0).tan() * camera.near;
+    let right = camera.forward.cross(camera.up) * (camera.vertical_fov / 2.0).tan() * camera.near * camera.aspect;
+    let center = camera.eye + camera.forward * camera.near;
+    [center - right - up, center + right - up, center + right + up, center - right + up]
+}
+
+fn placed() -> impl Strategy<Value = DAffine3> {
+    (vector(5.0), vector(3.0), vector(2.0))
+        .prop_map(|(place, turn, scale)| DAffine3::from_scale_rotation_translation(scale, DQuat::from_scaled_axis(turn), place))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_point_of_both_is_a_touch(camera in camera(), world_from_object in placed(), shares in prop::array::uniform5(0.0..1.0f64), spread in prop::array::uniform6(0.0f32..0.5)) {
+        // A point of the pyramid, and a box about it in an object's space.
+        let points = near_corners(&camera).into_iter().chain([camera.eye]);
+        let point: DVec3 = points.zip(shares).map(|(point, share)| point * share).sum::<DVec3>() / shares.iter().sum::<f64>().max(1e-9);
+        prop_assume!(shares.iter().sum::<f64>() > 1e-6 && world_from_object.matrix3.determinant().abs() > 1e-3);
+        let held = world_from_object.inverse().transform_point3(point).as_vec3();
+        let bounds = Aabb { min: held - Vec3::from_slice(&spread[..3]), max: held + Vec3::from_slice(&spread[3..]) };
+        prop_assert!(NearPyramid::of(camera.eye, near_corners(&camera)).may_touch(&bounds, &world_from_object));
+    }
+
+    #[test]
+    fn a_rectangle_holds_every_pixel_of_the_sphere(camera in camera(), center in vector(8.0), radius in 0.01..4.0f64, directions in prop::collection::vec(vector(1.0), 60)) {
+        let clip_from_world = camera.clip_from_world();
+        let size = [300, 200];
+        let rect = screen_rect(center, radius, &clip_from_world, size);
+        for direction in directions.into_iter().filter_map(|direction| direction.try_normalize()) {
+            let Some(pixel) = pixel(center + direction * radius, &clip_from_world, size) else { continue };
+            let [x, y, width, height] = rect.ok_or_else(|| TestCaseError::fail("none, but a point shows"))?;
+            let within = |at: f64, low: u32, extent: u32| f64::from(low) <= at && at <= f64::from(low + extent);
+            prop_assert!(within(pixel[0], x, width) && within(pixel[1], y, height), "{pixel:?} outside {rect:?}");
+        }
+    }
+}
+
+/// Where a point is drawn, in pixels from the top left; `None` where it is not.
+fn pixel(point: DVec3, clip_from_world: &DMat4, size: [u32; 2]) -> Option<[f64; 2]> {
+    let clip: DVec4 = *clip_from_world * point.extend(1.0);
+    let shown = clip.w > 0.0 && clip.z <= clip.w && clip.x.abs() <= clip.w && clip.y.abs() <= clip.w;
+    shown.then(|| [(clip.x / clip.w + 1.0) / 2.0 * f64::from(size[0]), (1.0 - clip.y / clip.w) / 2.0 * f64::from(size[1])])
+}
+
+/// At (0, 0, 10), looking along -Z, a right angle high and wide.
+fn straight(near: f64) -> Camera {
+    Camera::look_at(DVec3::Z * 10.0, DVec3::ZERO, std::f64::consts::FRAC_PI_2, 1.0, near).unwrap()
+}
+
+#[test]
+fn rectangles_are_tight_where_the_sphere_is_before_the_near_plane() {
+    let clip_from_world = straight(0.1).clip_from_world();
+    // Seen from 10 m, a sphere of 5 m fills sin = 1/2, tan = 0.577 to each side of 200 pixels' middle.
+    assert_eq!(screen_rect(DVec3::ZERO, 5.0, &clip_from_world, [200, 200]), Some([41, 41, 118, 118]));
+    assert_eq!(screen_rect(DVec3::new(30.0, 0.0, 0.0), 5.0, &clip_from_world, [200, 200]), None, "beside the view");
+    assert_eq!(screen_rect(DVec3::Z * 30.0, 5.0, &clip_from_world, [200, 200]), None, "behind the eye");
+    assert_eq!(screen_rect(DVec3::Z * 10.0, 5.0, &clip_from_world, [200, 100]), Some([0, 0, 200, 100]), "about the eye");
+    assert_eq!(screen_rect(DVec3::ZERO, f64::INFINITY, &clip_from_world, [20, 10]), Some([0, 0, 20, 10]));
+    let [x, _, width, _] = screen_rect(DVec3::new(-5.0, 0.0, 10.0), 4.0, &clip_from_world, [200, 200]).unwrap();
+    assert!(x == 0 && width <= 100, "to the left of the eye, and reaching behind it: {x} {width}");
+}
+
+#[test]
+fn a_near_pyramid_is_no_larger_than_it_is() {
+    let camera = straight(1.0);
+    let pyramid = NearPyramid::of(camera.eye, near_corners(&camera));
+    let cube = Aabb { min: Vec3::splat(-0.5), max: Vec3::splat(0.5) };
+    let touches = |place: DVec3| pyramid.may_touch(&cube, &DAffine3::from_translation(place));
+    assert!(touches(DVec3::new(0.0, 0.0, 9.5)) && touches(DVec3::new(0.0, 0.0, 10.4)), "the eye within, the near plane within");
+    assert!(
+        !touches(DVec3::new(0.0, 0.0, 8.4)) && touches(DVec3::new(0.0, 0.0, 8.6)),
+        "beyond the near plane by a tenth, across it"
+    );
+    assert!(!touches(DVec3::new(0.0, 0.0, 10.6)) && !touches(DVec3::new(1.6, 0.0, 9.5)), "behind the eye, beside the rectangle");
+    assert!(!touches(DVec3::new(1.3, 0.0, 10.1)), "beside the pyramid's slope");
+    assert!(!pyramid.may_touch(&Aabb::EMPTY, &DAffine3::IDENTITY));
+    let flat = DAffine3::from_scale_rotation_translation(DVec3::new(9.0, 0.0, 9.0), DQuat::IDENTITY, DVec3::ZERO);
+    assert!(pyramid.may_touch(&Aabb { min: Vec3::splat(-5.0), max: Vec3::splat(5.0) }, &flat), "a floor through the eye");
+}

@@ -1,0 +1,114 @@
+//! Every WGSL entry point passes naga, and every struct shared with Rust has the same layout there.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+
+use obscura::gpu::shaders::{Library, PROGRAMS, entry_of};
+use obscura::gpu::types;
+
+#[test]
+fn every_entry_point_is_valid_and_of_its_stage() {
+    let library = Library::new(None);
+    for entry in PROGRAMS {
+        let module = library.source(entry.file).unwrap().check().unwrap_or_else(|error| panic!("{error}"));
+        let has = |name: &str, stage| module.entry_points.iter().any(|point| point.name == name && point.stage == stage);
+        assert!(has(entry.vertex, naga::ShaderStage::Vertex), "{}: no vertex entry point {}", entry.file, entry.vertex);
+        let fragment = entry.fragment;
+        assert!(has(fragment, naga::ShaderStage::Fragment), "{}: no fragment entry point {fragment}", entry.file);
+        assert_eq!(entry_of(entry.program).program, entry.program, "the table is not in the enum's order");
+    }
+}
+
+#[test]
+fn every_entry_point_in_the_files_is_used_by_a_program() {
+    let library = Library::new(None);
+    for file in PROGRAMS.iter().map(|entry| entry.file) {
+        let module = library.source(file).unwrap().check().unwrap();
+        for point in &module.entry_points {
+            let used =
+                PROGRAMS.iter().any(|entry| entry.vertex == point.name || (entry.file == file && entry.fragment == point.name));
+            assert!(used, "{file}: entry point `{}` belongs to no program", point.name);
+        }
+    }
+}
+
+#[test]
+fn positions_of_surfaces_and_volumes_are_invariant() {
+    let library = Library::new(None);
+    for entry in PROGRAMS.iter().filter(|entry| entry.vertex == "surface_vertex" || entry.vertex == "volume_vertex") {
+        let module = library.source(entry.file).unwrap().check().unwrap();
+        let point = module.entry_points.iter().find(|point| point.name == entry.vertex).unwrap();
+        let result = point.function.result.as_ref().unwrap();
+        let invariant = |binding: &Option<naga::Binding>| {
+            matches!(binding, Some(naga::Binding::BuiltIn(naga::BuiltIn::Position { invariant: true })))
+        };
+        let found = match &module.types[result.ty].inner {
+            naga::TypeInner::Struct { members, .. } => members.iter().any(|member| invariant(&member.binding)),
+            _ => invariant(&result.binding),
+        };
+        assert!(found, "{}: {} has no invariant position", entry.file, entry.vertex);
+    }
+}
+
+/// Name and offset of each field of `structure`, and its size, as naga lays it out.
+fn wgsl_layout(file: &str, structure: &str) -> (Vec<(String, u32)>, u32) {
+    let module = Library::new(None).source(file).unwrap().check().unwrap();
+    let found = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(structure));
+    let (_, ty) = found.unwrap_or_else(|| panic!("{file} has no struct {structure}"));
+    let naga::TypeInner::Struct { members, span } = &ty.inner else { panic!("{structure} is no struct") };
+    (members.iter().map(|member| (member.name.clone().unwrap(), member.offset)).collect(), *span)
+}
+
+macro_rules! same_layout {
+    ($file:literal, $name:literal, $ty:ty, [$($field:ident),* $(,)?]) => {{
+        let (fields, size) = wgsl_layout($file, $name);
+        let rust = [$((stringify!($field), std::mem::offset_of!($ty, $field) as u32)),*];
+        for (field, offset) in rust {
+            let found = fields.iter().find(|(name, _)| name == field);
+            assert_eq!(found.map(|(_, offset)| *offset), Some(offset), "{}.{field}", $name);
+        }
+        let named = fields.iter().filter(|(name, _)| !name.starts_with("_pad")).count();
+        assert_eq!(named, rust.len(), "{} has fields that this test does not name", $name);
+        assert_eq!(size as usize, size_of::<$ty>(), "size of {}", $name);
+    }};
+}
+
+#[test]
+fn shared_structs_have_the_same_layout() {
+    same_layout!(
+        "lit.wgsl",
+        "Frame",
+        types::Frame,
+        [eye, exposure, ambient_sky, smooth_terminator, ambient_ground, light_count, background_top, background_bottom, size]
+    );
+    same_layout!("lit.wgsl", "Object", types::Object, [clip_from_object, world_from_object, normal_from_object]);
+    same_layout!(
+        "lit.wgsl",
+        "Light",
+        types::Light,
+        [position, inverse_range_squared, direction, cos_outer, intensity, inverse_cone_width, kind]
+    );
+    same_layout!("volume.wgsl", "Volume", types::Volume, [light_in_object, object]);
+    same_layout!("volume.wgsl", "Draw", types::Draw, [constant, light]);
+    same_layout!("lit.wgsl", "Material", types::Material, [base_color, emissive, roughness, metallic, cutoff, unlit]);
+}
+
+#[test]
+fn an_error_names_file_line_and_column() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/lit.wgsl")).unwrap();
+    let broken = text.replace("light_on_surface(lights", "no_such_function(lights");
+    assert_ne!(text, broken);
+    let line = 1 + broken.lines().position(|line| line.contains("no_such_function")).unwrap();
+    std::fs::write(folder.path().join("lit.wgsl"), broken).unwrap();
+    let error = Library::new(Some(folder.path())).load().unwrap_err().to_string();
+    assert!(error.contains(&format!("lit.wgsl:{line}:")), "{error}");
+    assert!(error.contains("no_such_function"), "{error}");
+}
+
+#[test]
+fn an_error_in_an_included_file_names_that_file() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("shared")).unwrap();
+    std::fs::write(folder.path().join("shared/full_screen.wgsl"), "fn broken( {\n").unwrap();
+    let error = Library::new(Some(folder.path())).load().unwrap_err().to_string();
+    assert!(error.contains("shared/full_screen.wgsl:1:"), "{error}");
+}
