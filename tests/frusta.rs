@@ -96,6 +96,7 @@ fn a_near_pyramid_is_no_larger_than_it_is() {
     );
     assert!(!touches(DVec3::new(0.0, 0.0, 10.6)) && !touches(DVec3::new(1.6, 0.0, 9.5)), "behind the eye, beside the rectangle");
     assert!(!touches(DVec3::new(1.3, 0.0, 10.1)), "beside the pyramid's slope");
+    assert!(touches(DVec3::new(1.48, 0.0, 9.0)) && !touches(DVec3::new(1.51, 0.0, 9.0)), "beside the rectangle, by a hair");
     assert!(!pyramid.may_touch(&Aabb::EMPTY, &DAffine3::IDENTITY));
     let flat = DAffine3::from_scale_rotation_translation(DVec3::new(9.0, 0.0, 9.0), DQuat::IDENTITY, DVec3::ZERO);
     assert!(pyramid.may_touch(&Aabb { min: Vec3::splat(-5.0), max: Vec3::splat(5.0) }, &flat), "a floor through the eye");

@@ -32,6 +32,22 @@ proptest! {
     }
 
     #[test]
+    fn who_faces_the_light_counts_and_of_the_soup_everyone(shape in shape(), light in light()) {
+        let volume = shape.volume(light, VolumeParts::SIDES);
+        let solid = shape.mesh.topology.report().is_solid();
+        let some_solid = shape.mesh.topology.report().solid_components > 0;
+        for (triangle, counts) in shape.mesh.topology.triangles().iter().zip(volume.scratch.facing().contributions()) {
+            let [a, b, c] = triangle.map(|vertex| shape.welded[vertex as usize].as_dvec3());
+            let above = (b - a).cross(c - a).normalize_or_zero().dot(light.truncate().as_dvec3() - a * f64::from(light.w));
+            if above > 1e-3 {
+                prop_assert_eq!(*counts, 1);
+            } else if above < -1e-3 {
+                prop_assert!(*counts == 0 && some_solid || *counts == -1 && !solid);
+            }
+        }
+    }
+
+    #[test]
     fn volumes_are_closed(shape in shape(), light in light()) {
         let boundary = shape.boundary(&shape.volume(light, VolumeParts::ALL));
         prop_assert_eq!(unbalanced(&boundary, shape.welded.len() as u32, light), 0);

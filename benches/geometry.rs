@@ -1,0 +1,95 @@
+//! What a caster of 200,000 triangles costs: once a mesh, and each frame for each light.
+
+use std::hint::black_box;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use glam::{DVec3, Vec3, Vec4};
+use obscura::geometry::{
+    Aabb, Caster, Facing, Planes, Topology, VolumeParts, VolumeScratch, Weld, holding_count, silhouette::silhouette, terminator,
+};
+
+/// Positions and indices of a trefoil's tube, closed and outward, of `2 * rings * sides` triangles.
+fn torus_knot(rings: u32, sides: u32) -> (Vec<Vec3>, Vec<u32>) {
+    let curve = |turn: f32| {
+        let out = 2.0 + (3.0 * turn).cos();
+        Vec3::new(out * (2.0 * turn).cos(), (3.0 * turn).sin(), out * (2.0 * turn).sin())
+    };
+    let (mut positions, mut indices) = (Vec::new(), Vec::new());
+    let turn = |step: u32, steps: u32| step as f32 / steps as f32 * std::f32::consts::TAU;
+    for ring in 0..rings {
+        let at = curve(turn(ring, rings));
+        let along = (curve(turn(ring, rings) + 1e-3) - at).normalize();
+        let across = along.cross(at).normalize();
+        let up = across.cross(along);
+        for side in 0..sides {
+            let (sin, cos) = turn(side, sides).sin_cos();
+            positions.push(at + (across * cos + up * sin) * 0.4);
+            let vertex = |ring: u32, side: u32| ring % rings * sides + side % sides;
+            let (a, b) = (vertex(ring, side), vertex(ring + 1, side));
+            let (c, d) = (vertex(ring + 1, side + 1), vertex(ring, side + 1));
+            indices.extend([a, d, c, a, c, b]);
+        }
+    }
+    (positions, indices)
+}
+
+fn geometry(criterion: &mut Criterion) {
+    let (positions, indices) = torus_knot(1000, 100);
+    let build = || Topology::build(&indices, &positions, Weld::new(&positions, |_, _| std::cmp::Ordering::Equal), |_| true);
+    let topology = build();
+    assert!(topology.report().is_solid() && topology.report().triangles == 200_000, "{:?}", topology.report());
+    // As a file holds it that splits every triangle's vertices.
+    let split: Vec<Vec3> = indices.iter().map(|&index| positions[index as usize]).collect();
+    let split_indices: Vec<u32> = (0..split.len() as u32).collect();
+
+    let mut group = criterion.benchmark_group("200,000 triangles, once");
+    group.sample_size(20);
+    group.bench_function("topology", |bencher| bencher.iter(build));
+    group.bench_function("topology, all vertices split", |bencher| {
+        bencher.iter(|| Topology::build(&split_indices, &split, Weld::new(&split, |_, _| std::cmp::Ordering::Equal), |_| true));
+    });
+    group.finish();
+
+    let (mut welded, mut planes) = (Vec::new(), Planes::default());
+    topology.weld().gather(&positions, &mut welded);
+    planes.build(&topology, &welded);
+    let bounds = Aabb::from_points(welded.iter().copied());
+    let caster = Caster { topology: &topology, welded: &welded, planes: &planes, bounds: &bounds };
+    let lights = [("point", Vec4::new(5.0, 7.0, 3.0, 1.0)), ("directional", Vec4::new(0.4, 0.8, 0.4, 0.0))];
+
+    let mut group = criterion.benchmark_group("200,000 triangles, each pose");
+    group.bench_function("planes", |bencher| bencher.iter(|| planes_of(&topology, &welded)));
+    let normals: Vec<Vec3> = welded.iter().map(|position| position.normalize()).collect();
+    let mut sines = Vec::new();
+    group.bench_function("terminator", |bencher| bencher.iter(|| terminator::sines(&positions, &normals, &indices, &mut sines)));
+    group.finish();
+
+    let mut group = criterion.benchmark_group("200,000 triangles, each light");
+    let (mut facing, mut edges) = (Facing::default(), Vec::new());
+    group.bench_function("facing", |bencher| bencher.iter(|| facing.decide(&topology, &planes, black_box(lights[0].1))));
+    group.bench_function("silhouette from facing", |bencher| bencher.iter(|| silhouette(&topology, &facing, &mut edges)));
+    let (mut scratch, mut out) = (VolumeScratch::default(), Vec::new());
+    for (name, light) in lights {
+        for (what, parts) in [("facing, silhouette and sides", VolumeParts::SIDES), ("whole volume", VolumeParts::ALL)] {
+            group.bench_function(format!("{what}, {name}"), |bencher| {
+                bencher.iter(|| {
+                    out.clear();
+                    scratch.append(caster, black_box(light), parts, &mut out)
+                });
+            });
+        }
+    }
+    group.bench_function("eye count", |bencher| {
+        bencher.iter(|| holding_count(&topology, &positions, lights[0].1.as_dvec4(), black_box(DVec3::new(-4.0, -6.0, -2.0))));
+    });
+    group.finish();
+}
+
+fn planes_of(topology: &Topology, welded: &[Vec3]) -> Planes {
+    let mut planes = Planes::default();
+    planes.build(topology, welded);
+    planes
+}
+
+criterion_group!(benches, geometry);
+criterion_main!(benches);
