@@ -27,7 +27,7 @@ fn torus_knot(rings: u32, sides: u32) -> (Vec<Vec3>, Vec<u32>) {
             let vertex = |ring: u32, side: u32| ring % rings * sides + side % sides;
             let (a, b) = (vertex(ring, side), vertex(ring + 1, side));
             let (c, d) = (vertex(ring + 1, side + 1), vertex(ring, side + 1));
-            indices.extend([a, d, c, a, c, b]);
+            indices.extend([a, c, d, a, b, c]);
         }
     }
     (positions, indices)
