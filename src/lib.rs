@@ -1,6 +1,7 @@
 //! Obscura: the architecture page is written as the parts land.
 
 pub mod app;
+pub mod cli;
 pub mod director;
 pub mod frame;
 pub mod geometry;

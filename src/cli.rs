@@ -1,0 +1,404 @@
+//! The command line: arguments to [`Settings`] and a [`Command`], and back.
+//!
+//! Two kinds of mistake are told apart. What cannot be read as arguments at all (an unknown
+//! option, a size that is no size, `--eye` without `--target`) is *wrong usage*: clap's message,
+//! exit code 2. What reads well but names nothing or lies out of range is *bad input*
+//! ([`InputError`]): one line, exit code 1, like a file that cannot be opened.
+//!
+//! [`render_command`] goes the other way: settings to the command line that draws them again,
+//! which pictures carry and the window copies to the clipboard.
+
+mod command_line;
+mod input;
+mod light_edit;
+
+pub use command_line::render_command;
+pub use input::{InputError, MAX_COORDINATE, MAX_EXPOSURE, check, check_against};
+
+use std::ffi::{OsStr, OsString};
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory as _, Parser, Subcommand};
+use glam::DVec3;
+
+use crate::scene::{AnimationChoice, stock};
+use crate::settings::{CameraChoice, LightEdit, MAX_SIZE, SceneChoice, Settings, Show, Technique};
+
+/// What the arguments ask for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Command {
+    /// Opens the window.
+    Window(WindowRequest),
+    /// Draws one picture.
+    Render {
+        /// What is drawn.
+        settings: Settings,
+        /// The PNG file to write.
+        out: PathBuf,
+        /// Prints what was done as JSON.
+        json: bool,
+    },
+    /// Names scenes, techniques and shows.
+    List {
+        /// As JSON.
+        json: bool,
+    },
+    /// Prints what was imported.
+    Info {
+        /// Which scene.
+        scene: SceneChoice,
+        /// With a floor beneath it.
+        floor: bool,
+        /// As JSON.
+        json: bool,
+    },
+    /// Draws every stock scene in every mode.
+    Tour {
+        /// The folder to write to; made where it is missing.
+        out: PathBuf,
+    },
+}
+
+/// What the arguments say about the window, apart from what its last run left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WindowRequest {
+    arguments: WindowArguments,
+    /// Whether frames wait for the screen, where the arguments say.
+    pub vsync: Option<bool>,
+    /// The window closes after this many frames.
+    pub frames: Option<u64>,
+    /// No argument was given at all.
+    pub bare: bool,
+}
+
+impl WindowRequest {
+    /// The settings to start with. Arguments win over `saved`; where they name a scene, what
+    /// `saved` says about another scene's lights, cameras and animations is left out.
+    ///
+    /// # Errors
+    /// Arguments that name nothing or lie out of range.
+    pub fn settings(&self, saved: Settings) -> Result<Settings, InputError> {
+        self.arguments.picture.settings(self.arguments.scene.as_deref(), saved)
+    }
+}
+
+/// Reads the process's arguments, the program's name first.
+///
+/// # Errors
+/// Clap's error for wrong usage, `--help` and `--version`; it knows its exit code.
+pub fn parse<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) -> Result<Parsed, clap::Error> {
+    let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    let bare = arguments.len() < 2;
+    let cli = Cli::try_parse_from(arguments)?;
+    let picture = match &cli.command {
+        None => &cli.window.picture,
+        Some(Subcommands::Render(render)) => &render.picture,
+        Some(_) => return Ok(Parsed { cli, bare }),
+    };
+    match (picture.eye, picture.target) {
+        (Some(_), None) => Err(Cli::command().error(ErrorKind::MissingRequiredArgument, "--eye needs --target <X,Y,Z>")),
+        (None, Some(_)) => Err(Cli::command().error(ErrorKind::MissingRequiredArgument, "--target needs --eye <X,Y,Z>")),
+        _ => Ok(Parsed { cli, bare }),
+    }
+}
+
+/// Arguments that read well; [`Parsed::command`] says whether they also mean something.
+#[derive(Debug)]
+pub struct Parsed {
+    cli: Cli,
+    bare: bool,
+}
+
+impl Parsed {
+    /// What is to be done.
+    ///
+    /// # Errors
+    /// Arguments that name nothing or lie out of range.
+    pub fn command(self) -> Result<Command, InputError> {
+        Ok(match self.cli.command {
+            None => {
+                let arguments = self.cli.window;
+                let (vsync, frames) = (arguments.vsync.map(|switch| switch == Switch::On), arguments.frames);
+                let request = WindowRequest { arguments, vsync, frames, bare: self.bare };
+                request.settings(Settings::default())?;
+                Command::Window(request)
+            }
+            Some(Subcommands::Render(render)) => Command::Render {
+                settings: render.picture.settings(Some(&render.scene), Settings::default())?,
+                out: render.out,
+                json: render.json,
+            },
+            Some(Subcommands::List { json }) => Command::List { json },
+            Some(Subcommands::Info { scene, floor, json }) => Command::Info { scene: scene_choice(&scene)?, floor, json },
+            Some(Subcommands::Tour { out }) => Command::Tour { out },
+        })
+    }
+}
+
+/// A stock scene's name, or else a path. `./name` is always the file.
+///
+/// # Errors
+/// An empty word.
+pub fn scene_choice(word: &OsStr) -> Result<SceneChoice, InputError> {
+    let Some(text) = word.to_str() else { return Ok(SceneChoice::File(word.into())) };
+    if text.is_empty() {
+        return Err(InputError::Empty("the scene's name"));
+    }
+    if is_stock(text) {
+        return Ok(SceneChoice::Stock(text.into()));
+    }
+    // The `./` that only keeps a name from being taken for something else is not part of the path.
+    let bare = text.strip_prefix("./").filter(|rest| needs_dot(rest));
+    Ok(SceneChoice::File(bare.unwrap_or(text).into()))
+}
+
+fn is_stock(name: &str) -> bool {
+    stock::TABLE.iter().any(|scene| scene.name == name)
+}
+
+/// A relative path that would be read as something else.
+fn needs_dot(path: &str) -> bool {
+    path.starts_with('-') || is_stock(path)
+}
+
+#[derive(Debug, Parser)]
+#[command(
+    name = "obscura",
+    version,
+    about = "A laboratory for the stencil buffer: shadow volumes, exactly right, on any glTF",
+    long_about = "A laboratory for the stencil buffer: shadow volumes, exactly right, on any glTF.\n\n\
+        Without a command it opens the window. `obscura list` names what there is.",
+    args_conflicts_with_subcommands = true
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Subcommands>,
+    #[command(flatten)]
+    window: WindowArguments,
+}
+
+#[derive(Debug, Subcommand)]
+enum Subcommands {
+    /// Draws one picture into a PNG file
+    Render(Box<RenderArguments>),
+    /// Names the stock scenes, the techniques and what can be shown
+    List {
+        /// Prints JSON
+        #[arg(long)]
+        json: bool,
+    },
+    /// Prints what was imported, and how each mesh's shadow volume will be built
+    Info {
+        /// A stock scene's name, or a .gltf or .glb file (`./name` where a file has a stock name)
+        #[arg(value_name = "SCENE")]
+        scene: OsString,
+        /// Prints JSON
+        #[arg(long)]
+        json: bool,
+        /// Adds a floor beneath a file's scene
+        #[arg(long)]
+        floor: bool,
+    },
+    /// Draws each stock scene by each technique, and everything that can be shown, into a folder
+    Tour {
+        /// The folder; made where it is missing
+        #[arg(long, value_name = "DIR", default_value = "out")]
+        out: PathBuf,
+    },
+}
+
+#[derive(Debug, Clone, PartialEq, Args)]
+struct WindowArguments {
+    /// A stock scene's name, or a .gltf or .glb file (`./name` where a file has a stock name)
+    #[arg(value_name = "SCENE")]
+    scene: Option<OsString>,
+    #[command(flatten)]
+    picture: PictureArguments,
+    /// Whether frames wait for the screen
+    #[arg(long, value_enum, value_name = "on|off", hide_possible_values = true)]
+    vsync: Option<Switch>,
+    /// Closes the window after this many frames
+    #[arg(long, value_name = "N")]
+    frames: Option<u64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Switch {
+    On,
+    Off,
+}
+
+#[derive(Debug, Args)]
+struct RenderArguments {
+    /// A stock scene's name, or a .gltf or .glb file (`./name` where a file has a stock name)
+    #[arg(value_name = "SCENE")]
+    scene: OsString,
+    /// The PNG file to write
+    #[arg(long, value_name = "FILE.png")]
+    out: PathBuf,
+    #[command(flatten)]
+    picture: PictureArguments,
+    /// Prints what was drawn, and how long it took, as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// What both the window and `render` understand. Words and numbers are kept as they were read;
+/// whether they name something is [`PictureArguments::settings`]'s business.
+#[derive(Debug, Clone, PartialEq, Args)]
+struct PictureArguments {
+    #[arg(long, value_name = "T", help = format!("How shadows are counted: {}", names(Technique::ALL.map(Technique::name))))]
+    technique: Option<String>,
+    #[arg(long, value_name = "S", help = format!("What is shown: {}", names(Show::ALL.map(Show::name))))]
+    show: Option<String>,
+    /// The light that stencil, shadow and volumes look at, from 0
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = index)]
+    light: Option<usize>,
+    /// Pixels [default: 1280x720]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = size)]
+    size: Option<[u32; 2]>,
+    /// Samples a pixel, 1 or 4 [default: 1]
+    #[arg(long, value_name = "N")]
+    samples: Option<u32>,
+    /// One of the scene's cameras [default: its first]
+    #[arg(long, value_name = "NAME|INDEX", allow_hyphen_values = true, conflicts_with_all = ["eye", "target"])]
+    camera: Option<String>,
+    /// Where the camera stands, metres
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = point)]
+    eye: Option<DVec3>,
+    /// What the camera looks at, metres
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = point)]
+    target: Option<DVec3>,
+    /// The full vertical angle of view, degrees [default: the camera's]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    fov: Option<f64>,
+    /// Seconds into the animation [default: 0]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    time: Option<f64>,
+    /// Which animations play [default: the scene's choice]
+    #[arg(long, value_name = "all|still|N", allow_hyphen_values = true, value_parser = animation)]
+    animation: Option<AnimationChoice>,
+    /// Adds a floor beneath a file's scene
+    #[arg(long)]
+    floor: bool,
+    /// Brightens or darkens the picture [default: 0]
+    #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
+    exposure: Option<f32>,
+    /// Shades meshes without the bound that keeps facets off the terminator
+    #[arg(long)]
+    no_smooth_terminator: bool,
+    /// Changes light K, such as "0:on=false" or
+    /// "1:position=0;3;0,color=1;0.5;0.2,intensity=40,range=12,shadows=true"; can be repeated
+    #[arg(long, value_name = "K:WHAT=VALUE,...", value_parser = light_edit::parse)]
+    light_edit: Vec<(usize, LightEdit)>,
+    /// The graphics adapter: part of its name
+    #[arg(long, value_name = "SUBSTRING", allow_hyphen_values = true)]
+    adapter: Option<String>,
+    /// Reads the shaders from a folder, and again when they change
+    #[arg(long, value_name = "DIR")]
+    shaders: Option<PathBuf>,
+}
+
+impl PictureArguments {
+    /// `base`, changed as the arguments say.
+    fn settings(&self, scene: Option<&OsStr>, base: Settings) -> Result<Settings, InputError> {
+        let mut settings = base;
+        if let Some(word) = scene {
+            settings = Settings {
+                scene: scene_choice(word)?,
+                technique: settings.technique,
+                show: settings.show,
+                size: settings.size,
+                samples: settings.samples,
+                smooth_terminator: settings.smooth_terminator,
+                adapter: settings.adapter,
+                shaders: settings.shaders,
+                ..Settings::default()
+            };
+        }
+        if let Some(name) = &self.technique {
+            settings.technique = by_name("technique", name, Technique::ALL, Technique::name)?;
+        }
+        if let Some(name) = &self.show {
+            settings.show = by_name("show", name, Show::ALL, Show::name)?;
+        }
+        if let (Some(eye), Some(target)) = (self.eye, self.target) {
+            settings.camera = CameraChoice::Free { eye, target };
+        }
+        if let Some(name) = &self.camera {
+            settings.camera = CameraChoice::Named(name.clone());
+        }
+        settings.light = self.light.unwrap_or(settings.light);
+        settings.size = self.size.unwrap_or(settings.size);
+        settings.samples = self.samples.unwrap_or(settings.samples);
+        settings.fov = self.fov.or(settings.fov);
+        settings.time = self.time.unwrap_or(settings.time);
+        settings.animation = self.animation.or(settings.animation);
+        settings.floor |= self.floor;
+        settings.exposure = self.exposure.unwrap_or(settings.exposure);
+        settings.smooth_terminator &= !self.no_smooth_terminator;
+        for (light, edit) in &self.light_edit {
+            light_edit::merge(settings.lights.entry(*light).or_default(), edit);
+        }
+        settings.adapter = self.adapter.clone().or(settings.adapter);
+        settings.shaders = self.shaders.clone().or(settings.shaders);
+        check(&settings)?;
+        Ok(settings)
+    }
+}
+
+fn names<const N: usize>(all: [&str; N]) -> String {
+    all.join(", ")
+}
+
+fn by_name<T: Copy, const N: usize>(
+    kind: &'static str,
+    name: &str,
+    all: [T; N],
+    name_of: fn(T) -> &'static str,
+) -> Result<T, InputError> {
+    all.into_iter().find(|&one| name_of(one) == name).ok_or_else(|| InputError::Unknown {
+        kind,
+        name: name.into(),
+        known: names(all.map(name_of)),
+    })
+}
+
+/// A whole number. One too large for any scene stays too large: it is out of range, not unreadable.
+fn index(text: &str) -> Result<usize, String> {
+    if text.is_empty() || !text.bytes().all(|byte| byte.is_ascii_digit()) {
+        return Err("expected a whole number from 0".into());
+    }
+    Ok(text.parse().unwrap_or(usize::MAX))
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| index(text).map(|side| u32::try_from(side).unwrap_or(u32::MAX));
+    text.split_once(['x', 'X'])
+        .and_then(|(width, height)| Some([side(width).ok()?, side(height).ok()?]))
+        .ok_or_else(|| format!("expected WIDTHxHEIGHT, each side 1 to {MAX_SIZE}, such as 1280x720"))
+}
+
+fn point(text: &str) -> Result<DVec3, String> {
+    let [x, y, z] = numbers(text, ',').ok_or("expected three numbers, such as 1.5,2,-3")?;
+    Ok(DVec3::new(x, y, z))
+}
+
+/// Exactly `N` numbers, separated.
+fn numbers<T: FromStr, const N: usize>(text: &str, separator: char) -> Option<[T; N]> {
+    let all = text.split(separator).map(|number| number.trim().parse().ok()).collect::<Option<Vec<T>>>()?;
+    all.try_into().ok()
+}
+
+fn animation(text: &str) -> Result<AnimationChoice, String> {
+    match text {
+        "all" => Ok(AnimationChoice::All),
+        "still" => Ok(AnimationChoice::Still),
+        _ => index(text).map(AnimationChoice::One).map_err(|_| "expected all, still, or an animation's index from 0".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,176 @@
+//! Which settings can be drawn at all, and what is said of those that cannot.
+
+use glam::DVec3;
+use thiserror::Error;
+
+use crate::scene::{AnimationChoice, Scene};
+use crate::settings::{CameraChoice, LightEdit, MAX_SIZE, Settings};
+
+/// Coordinates beyond this are taken for mistakes: at a million kilometres a metre is less than
+/// single precision, which the GPU works in, can tell apart.
+pub const MAX_COORDINATE: f64 = 1e9;
+
+/// Stops, either way, beyond which a picture is black or white whatever it shows.
+pub const MAX_EXPOSURE: f32 = 32.0;
+
+/// Arguments that read well but name nothing, or lie out of range: one line each.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum InputError {
+    /// No such technique or show.
+    #[error("no {kind} `{name}`; there are: {known}")]
+    Unknown {
+        /// What was looked for.
+        kind: &'static str,
+        /// What was said.
+        name: String,
+        /// What there is.
+        known: String,
+    },
+    /// Neither a stock scene nor a file.
+    #[error("no scene or file `{name}`; stock scenes are: {known}")]
+    NoScene {
+        /// What was said.
+        name: String,
+        /// The stock scenes.
+        known: String,
+    },
+    /// Nothing where a name should be.
+    #[error("{0} is empty")]
+    Empty(&'static str),
+    /// A picture nobody can draw.
+    #[error("a picture of {0}x{1} pixels is not possible: each side must be 1 to {MAX_SIZE}")]
+    Size(u32, u32),
+    /// Not a count of samples that devices have.
+    #[error("{0} samples a pixel are not possible: 1 or 4")]
+    Samples(u32),
+    /// NaN, infinite, or past all bounds.
+    #[error("{what} must be a finite number{}, not {value}", limit(*.bound))]
+    Number {
+        /// Whose number.
+        what: String,
+        /// What it was.
+        value: f64,
+        /// The largest magnitude allowed, where there is one.
+        bound: Option<f64>,
+    },
+    /// Below what it may be.
+    #[error("{what} must not be {}, not {value}", if *.zero { "negative or zero" } else { "negative" })]
+    Negative {
+        /// Whose number.
+        what: String,
+        /// What it was.
+        value: f64,
+        /// Zero is too little as well.
+        zero: bool,
+    },
+    /// Nowhere to look.
+    #[error("the camera's eye and target are the same point: {0}, {1}, {2}")]
+    EyeIsTarget(f64, f64, f64),
+    /// Not an angle a picture can have.
+    #[error("the field of view must lie between 0 and 180 degrees, not {0}")]
+    FieldOfView(f64),
+    /// The scene has no such thing.
+    #[error("no {kind} {index} in this scene: it has {count}{}", counted(*.count))]
+    Index {
+        /// A light, an animation.
+        kind: &'static str,
+        /// What was asked for, from 0.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+}
+
+fn limit(bound: Option<f64>) -> String {
+    bound.map(|bound| format!(" between -{bound} and {bound}")).unwrap_or_default()
+}
+
+fn counted(count: usize) -> &'static str {
+    if count == 0 { "" } else { ", counted from 0" }
+}
+
+/// Says whether `settings` can be drawn on some scene.
+///
+/// # Errors
+/// The first thing that cannot be.
+pub fn check(settings: &Settings) -> Result<(), InputError> {
+    let [width, height] = settings.size;
+    if !(1..=MAX_SIZE).contains(&width) || !(1..=MAX_SIZE).contains(&height) {
+        return Err(InputError::Size(width, height));
+    }
+    if !matches!(settings.samples, 1 | 4) {
+        return Err(InputError::Samples(settings.samples));
+    }
+    if let CameraChoice::Free { eye, target } = settings.camera {
+        place("the camera's eye", eye)?;
+        place("the camera's target", target)?;
+        if eye == target {
+            return Err(InputError::EyeIsTarget(eye.x, eye.y, eye.z));
+        }
+    }
+    if let Some(degrees) = settings.fov
+        && !(degrees > 0.0 && degrees < 180.0)
+    {
+        return Err(InputError::FieldOfView(degrees));
+    }
+    at_least_zero("the time", settings.time)?;
+    bounded("the exposure", f64::from(settings.exposure), Some(f64::from(MAX_EXPOSURE)))?;
+    settings.lights.iter().try_for_each(|(light, edit)| check_light(*light, edit))
+}
+
+fn check_light(light: usize, edit: &LightEdit) -> Result<(), InputError> {
+    let of = |what: &str| format!("light {light}'s {what}");
+    if let Some(position) = edit.position {
+        place(&of("position"), position)?;
+    }
+    if let Some(color) = edit.color {
+        color.to_array().into_iter().try_for_each(|part| at_least_zero(&of("color"), f64::from(part)))?;
+    }
+    if let Some(intensity) = edit.intensity {
+        at_least_zero(&of("intensity"), f64::from(intensity))?;
+    }
+    // An infinite range is what glTF's lights have by default.
+    match edit.range {
+        Some(range) if range.is_nan() => bounded(&of("range"), f64::from(range), None),
+        Some(range) if range <= 0.0 => Err(InputError::Negative { what: of("range"), value: f64::from(range), zero: true }),
+        _ => Ok(()),
+    }
+}
+
+fn place(what: &str, point: DVec3) -> Result<(), InputError> {
+    point.to_array().into_iter().try_for_each(|part| bounded(what, part, Some(MAX_COORDINATE)))
+}
+
+fn bounded(what: &str, value: f64, bound: Option<f64>) -> Result<(), InputError> {
+    if value.is_finite() && bound.is_none_or(|bound| value.abs() <= bound) {
+        return Ok(());
+    }
+    Err(InputError::Number { what: what.into(), value, bound })
+}
+
+fn at_least_zero(what: &str, value: f64) -> Result<(), InputError> {
+    bounded(what, value, None)?;
+    if value < 0.0 {
+        return Err(InputError::Negative { what: what.into(), value, zero: false });
+    }
+    Ok(())
+}
+
+/// Says whether `scene` has the lights and animations that `settings` speak of.
+///
+/// # Errors
+/// The first that is not there.
+pub fn check_against(settings: &Settings, scene: &Scene) -> Result<(), InputError> {
+    let count = scene.lights.len();
+    let asked = settings.lights.keys().next_back().copied().unwrap_or(0).max(settings.light);
+    // Light 0 is what is looked at when nobody chose one, also where there is none.
+    if asked >= count && (asked > 0 || !settings.lights.is_empty()) {
+        return Err(InputError::Index { kind: "light", index: asked, count });
+    }
+    if let Some(AnimationChoice::One(index)) = settings.animation
+        && index >= scene.animations.len()
+    {
+        return Err(InputError::Index { kind: "animation", index, count: scene.animations.len() });
+    }
+    Ok(())
+}
