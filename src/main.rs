@@ -1,2 +1,96 @@
-//! Obscura.
-fn main() {}
+//! The program: reads its arguments, opens the window or works without one, reports what went
+//! wrong in one line, and says by its exit code what kind of end it was: 0 done, 1 bad input or
+//! a failure, 2 wrong usage.
+
+use std::fmt::Display;
+use std::io::{self, Write as _};
+use std::path::Path;
+use std::process::ExitCode;
+
+use obscura::cli::{self, Command, WindowRequest};
+use obscura::headless::{self, catalog::Catalog, render::render, tour};
+use obscura::scene::doctor;
+use serde::Serialize;
+use tracing_subscriber::EnvFilter;
+
+fn main() -> ExitCode {
+    // Quiet unless asked: RUST_LOG=obscura=info, for example.
+    let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("off"));
+    tracing_subscriber::fmt().with_env_filter(filter).with_writer(io::stderr).init();
+
+    let parsed = match cli::parse(std::env::args_os()) {
+        Ok(parsed) => parsed,
+        Err(error) => {
+            // Help may be piped into a reader that has had enough.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    match parsed.command().map_err(Failure::from).and_then(run) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure(message)) => {
+            let _ = writeln!(io::stderr(), "obscura: error: {}", one_line(&message));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// An error's message: here, at the edge, is where it is handled.
+struct Failure(String);
+
+impl<E: std::error::Error> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self(error.to_string())
+    }
+}
+
+fn run(command: Command) -> Result<(), Failure> {
+    match command {
+        Command::Window(request) => window(&request),
+        Command::Render { settings, out, json } => {
+            let report = render(&settings, &out, json)?;
+            if json { print_json(&report) } else { Ok(()) }
+        }
+        Command::List { json } => print_as(&Catalog::new(), json),
+        Command::Info { scene, floor, json } => print_as(&doctor::report(&headless::open_scene(&scene, floor)?), json),
+        Command::Tour { out } => take_tour(&out),
+    }
+}
+
+/// The window where there is a display; else the tour, if nothing in particular was asked for.
+fn window(request: &WindowRequest) -> Result<(), Failure> {
+    if request.bare {
+        take_tour(Path::new("out"))
+    } else {
+        Err(Failure("there is no display for a window; `obscura render SCENE --out FILE.png` draws without one".into()))
+    }
+}
+
+fn take_tour(out: &Path) -> Result<(), Failure> {
+    let files = tour::tour(out)?;
+    let folder = out.canonicalize().unwrap_or_else(|_| out.into());
+    print(&format!("{} pictures in {}\n", files.len(), folder.display()))
+}
+
+fn print_as<T: Display + Serialize>(value: &T, json: bool) -> Result<(), Failure> {
+    if json { print_json(value) } else { print(&value.to_string()) }
+}
+
+fn print_json<T: Serialize>(value: &T) -> Result<(), Failure> {
+    print(&(serde_json::to_string_pretty(value)? + "\n"))
+}
+
+/// Writes to stdout; a reader that has had enough (`obscura list | head -1`) is no error.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        result => Ok(result?),
+    }
+}
+
+/// One line, whatever names and drivers put into it.
+fn one_line(message: &str) -> String {
+    let words: Vec<_> = message.split_whitespace().collect();
+    words.join(" ").chars().map(|letter| if letter.is_control() { '\u{fffd}' } else { letter }).collect()
+}

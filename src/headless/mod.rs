@@ -1,5 +1,61 @@
 //! Everything without a window: pictures, lists and reports.
+//!
+//! - [`render`] draws one picture, [`tour`] all of them; [`save`](save_png) writes them whole or not at all;
+//! - [`json`] is what `render --json` prints, [`catalog`] what `list` prints.
 
+pub mod catalog;
+pub mod json;
+pub mod render;
 mod save;
+pub mod tour;
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::cli::InputError;
+use crate::director::StageError;
+use crate::gpu::GpuError;
+use crate::scene::{OpenError, Scene, stock};
+use crate::settings::SceneChoice;
 
 pub use save::{COMMAND_KEY, SaveError, check_target, read_command, save_png};
+
+/// Why there is no picture: one line each.
+#[derive(Debug, Error)]
+pub enum HeadlessError {
+    /// Settings that name nothing or lie out of range.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The scene cannot be opened.
+    #[error(transparent)]
+    Open(#[from] OpenError),
+    /// The frame cannot be planned.
+    #[error(transparent)]
+    Stage(#[from] StageError),
+    /// The device cannot draw it.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The picture cannot be written.
+    #[error(transparent)]
+    Save(#[from] SaveError),
+    /// The folder cannot be made.
+    #[error("cannot make the folder {folder}: {error}", folder = .0.display(), error = .1)]
+    Folder(PathBuf, #[source] std::io::Error),
+}
+
+/// Opens a scene. A lone word that is no file either was meant as a stock scene's name.
+///
+/// # Errors
+/// No such scene, or a file that cannot be imported.
+pub fn open_scene(choice: &SceneChoice, floor: bool) -> Result<Scene, HeadlessError> {
+    if let SceneChoice::File(path) = choice
+        && path.extension().is_none()
+        && path.components().count() == 1
+        && !path.exists()
+    {
+        let known = stock::TABLE.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", ");
+        return Err(InputError::NoScene { name: path.to_string_lossy().into_owned(), known }.into());
+    }
+    Ok(crate::scene::open(choice, floor)?)
+}

@@ -1,0 +1,84 @@
+//! `obscura list`: what there is to choose from.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use crate::scene::stock;
+use crate::settings::{Show, Technique};
+use crate::techniques;
+
+/// Scenes, techniques and shows.
+#[derive(Debug, Clone, Serialize)]
+pub struct Catalog {
+    /// The stock scenes.
+    pub scenes: Vec<Entry>,
+    /// The techniques.
+    pub techniques: Vec<TechniqueEntry>,
+    /// What can be shown.
+    pub shows: Vec<Entry>,
+}
+
+/// A name, and what it stands for.
+#[derive(Debug, Clone, Serialize)]
+pub struct Entry {
+    /// As the command line takes it.
+    pub name: &'static str,
+    /// One sentence.
+    pub about: &'static str,
+}
+
+/// A technique, and where it comes from.
+#[derive(Debug, Clone, Serialize)]
+pub struct TechniqueEntry {
+    /// As the command line takes it.
+    pub name: &'static str,
+    /// One sentence.
+    pub about: &'static str,
+    /// True where every pixel is right on every scene.
+    pub exact: bool,
+    /// Paper and section.
+    pub source: &'static str,
+}
+
+impl Catalog {
+    /// Everything this program has.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            scenes: stock::TABLE.iter().map(|scene| Entry { name: scene.name, about: scene.about }).collect(),
+            techniques: Technique::ALL
+                .map(|technique| {
+                    let row = techniques::row(technique);
+                    TechniqueEntry { name: technique.name(), about: row.about, exact: row.exact, source: row.source }
+                })
+                .into(),
+            shows: Show::ALL.map(|show| Entry { name: show.name(), about: show.about() }).into(),
+        }
+    }
+}
+
+impl Default for Catalog {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl fmt::Display for Catalog {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "scenes")?;
+        for Entry { name, about } in &self.scenes {
+            writeln!(f, "  {name:<14} {about}")?;
+        }
+        writeln!(f, "\ntechniques (--technique)")?;
+        for TechniqueEntry { name, about, exact, source } in &self.techniques {
+            let exact = if *exact { "exact" } else { "not exact" };
+            writeln!(f, "  {name:<14} {about} ({exact}; {source})")?;
+        }
+        writeln!(f, "\nshows (--show)")?;
+        for Entry { name, about } in &self.shows {
+            writeln!(f, "  {name:<14} {about}")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,157 @@
+//! What `obscura render --json` says of a picture: the plan in numbers, and the time it took.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::cli::render_command;
+use crate::frame::plan::{Method, Reason};
+use crate::frame::{Camera, Capabilities, FramePlan, Lack};
+use crate::gpu::FrameStats;
+use crate::scene::Scene;
+use crate::settings::{Settings, Show, Technique};
+
+/// One picture, for programs.
+#[derive(Debug, Clone, Serialize)]
+pub struct Report {
+    /// The command that draws it again.
+    pub command: String,
+    /// Where it was written.
+    pub file: String,
+    /// The scene's name.
+    pub scene: String,
+    /// How shadows were counted.
+    pub technique: Technique,
+    /// What is shown.
+    pub show: Show,
+    /// The light that is looked at.
+    pub light: usize,
+    /// Pixels.
+    pub size: [u32; 2],
+    /// Per pixel.
+    pub samples: u32,
+    /// Seconds into the animation.
+    pub time: f64,
+    /// The eye, world space.
+    pub camera: Option<Camera>,
+    /// The device.
+    pub adapter: String,
+    /// What the device cannot do, and what was done instead.
+    pub lacks: Vec<Lack>,
+    /// What the importer left out or replaced.
+    pub warnings: Vec<String>,
+    /// What a user should know about this frame.
+    pub notes: Vec<String>,
+    /// The frame's steps, in order.
+    pub steps: Vec<StepReport>,
+    /// Light by light, how the shadow volumes were counted.
+    pub volumes: Vec<LightReport>,
+    /// What the GPU was given.
+    pub frame: FrameStats,
+    /// How long it took.
+    pub timings: Timings,
+}
+
+/// One step of the frame.
+#[derive(Debug, Clone, Serialize)]
+pub struct StepReport {
+    /// A few words.
+    pub label: String,
+    /// What it is for.
+    pub why: String,
+}
+
+/// The volumes of one light.
+#[derive(Debug, Clone, Serialize)]
+pub struct LightReport {
+    /// Its index in the scene.
+    pub light: usize,
+    /// Its name.
+    pub name: String,
+    /// How many casters were counted how, and why.
+    pub counted: Vec<Counted>,
+}
+
+/// Casters that were counted alike.
+#[derive(Debug, Clone, Serialize)]
+pub struct Counted {
+    /// How.
+    pub method: Method,
+    /// Why.
+    pub reason: Reason,
+    /// The reason as a sentence.
+    pub words: &'static str,
+    /// How many.
+    pub casters: usize,
+}
+
+/// Milliseconds of wall clock. The first frame compiles its pipelines; the second is what a
+/// frame costs.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub struct Timings {
+    /// Importing the scene.
+    pub open_ms: f64,
+    /// Finding the device, compiling shaders, uploading the scene.
+    pub upload_ms: f64,
+    /// Posing and planning.
+    pub plan_ms: f64,
+    /// The first frame, with its read-back.
+    pub first_frame_ms: f64,
+    /// The second frame, with its read-back.
+    pub second_frame_ms: f64,
+}
+
+impl Report {
+    /// Everything but the figures that only drawing can tell.
+    #[must_use]
+    pub fn new(
+        file: &Path,
+        settings: &Settings,
+        scene: &Scene,
+        plan: &FramePlan,
+        capabilities: &Capabilities,
+        frame: FrameStats,
+        timings: Timings,
+    ) -> Self {
+        Self {
+            command: render_command(settings),
+            file: file.to_string_lossy().into_owned(),
+            scene: scene.name.clone(),
+            technique: settings.technique,
+            show: settings.show,
+            light: settings.light,
+            size: plan.size,
+            samples: plan.samples,
+            time: settings.time,
+            camera: plan.views.first().map(|view| view.camera),
+            adapter: capabilities.adapter.clone(),
+            lacks: capabilities.lacks(),
+            warnings: scene.warnings.clone(),
+            notes: plan.notes.clone(),
+            steps: plan.steps.iter().map(|step| StepReport { label: step.label.clone(), why: step.why.clone() }).collect(),
+            volumes: volumes(scene, plan),
+            frame,
+            timings,
+        }
+    }
+}
+
+/// The plan's volumes, gathered by light, method and reason.
+fn volumes(scene: &Scene, plan: &FramePlan) -> Vec<LightReport> {
+    let mut lights: BTreeMap<usize, BTreeMap<(Method, Reason), usize>> = BTreeMap::new();
+    for volume in &plan.volumes {
+        *lights.entry(volume.light).or_default().entry((volume.method, volume.reason)).or_default() += 1;
+    }
+    lights
+        .into_iter()
+        .map(|(light, counts)| LightReport {
+            light,
+            name: scene.lights.get(light).map(|light| light.name.clone()).unwrap_or_default(),
+            counted: counts
+                .into_iter()
+                .map(|((method, reason), casters)| Counted { method, reason, words: reason.words(), casters })
+                .collect(),
+        })
+        .collect()
+}

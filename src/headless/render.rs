@@ -1,0 +1,60 @@
+//! `obscura render`: one picture. The same arguments give the same pixels every time.
+
+use std::path::Path;
+use std::time::Instant;
+
+use super::HeadlessError;
+use super::json::{Report, Timings};
+use super::save::{check_target, save_png};
+use crate::cli::{check, check_against, render_command};
+use crate::director;
+use crate::gpu::{Context, Renderer, readback};
+use crate::scene::Scene;
+use crate::settings::Settings;
+
+/// Draws what `settings` say into the PNG file `out`. With `measured`, draws it twice, for the
+/// second frame's time: the first one's is mostly compilation.
+///
+/// # Errors
+/// Whatever stands in the way, before anything is written.
+pub fn render(settings: &Settings, out: &Path, measured: bool) -> Result<Report, HeadlessError> {
+    check(settings)?;
+    check_target(out)?;
+    let mut timings = Timings::default();
+    let mut clock = Instant::now();
+    let scene = open(settings)?;
+    timings.open_ms = lap(&mut clock);
+
+    let context = Context::headless(settings.adapter.as_deref())?;
+    let mut renderer = Renderer::new(&context, settings.shaders.as_deref())?;
+    renderer.set_scene(&context, &scene)?;
+    timings.upload_ms = lap(&mut clock);
+
+    let (pose, plan) = director::stage(settings, &scene, context.capabilities())?;
+    timings.plan_ms = lap(&mut clock);
+
+    let (mut frame, picture) = readback::picture(&context, &mut renderer, &plan, &scene, &pose)?;
+    timings.first_frame_ms = lap(&mut clock);
+    if measured {
+        (frame, _) = readback::picture(&context, &mut renderer, &plan, &scene, &pose)?;
+        timings.second_frame_ms = lap(&mut clock);
+    }
+    save_png(out, &picture, &render_command(settings))?;
+    Ok(Report::new(out, settings, &scene, &plan, context.capabilities(), frame, timings))
+}
+
+/// The scene that `settings` ask for, with the lights and animations they speak of.
+///
+/// # Errors
+/// No such scene, a file that cannot be imported, a light or animation that is not in it.
+pub fn open(settings: &Settings) -> Result<Scene, HeadlessError> {
+    let scene = super::open_scene(&settings.scene, settings.floor)?;
+    check_against(settings, &scene)?;
+    Ok(scene)
+}
+
+fn lap(clock: &mut Instant) -> f64 {
+    let milliseconds = clock.elapsed().as_secs_f64() * 1e3;
+    *clock = Instant::now();
+    milliseconds
+}

@@ -1,0 +1,344 @@
+//! The program as a user meets it: the real binary, its exit codes, what it says, what it leaves.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test may stop where it stands
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
+
+use obscura::headless::read_command;
+use obscura::settings::{Show, Technique};
+use serde_json::Value;
+
+/// A run of the program in a folder of its own, away from any display.
+fn obscura(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_obscura"));
+    command.current_dir(folder).stdin(Stdio::null());
+    for variable in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "RUST_LOG"] {
+        command.env_remove(variable);
+    }
+    command
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    obscura(folder).args(arguments).output().unwrap()
+}
+
+fn good(folder: &Path, arguments: &[&str]) -> String {
+    let output = run(folder, arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// The one line on stderr, for bad input: exit code 1, nothing on stdout.
+fn bad(folder: &Path, arguments: &[&str]) -> String {
+    let output = run(folder, arguments);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{arguments:?}: {said}");
+    assert!(output.stdout.is_empty(), "{arguments:?}");
+    // What Mesa's software driver says of itself is not ours to silence.
+    let lines: Vec<_> = said.lines().filter(|line| !line.starts_with("WARNING: lavapipe")).collect();
+    assert_eq!(lines.len(), 1, "{arguments:?}: {said}");
+    assert!(lines[0].starts_with("obscura: error: "), "{arguments:?}: {said}");
+    lines[0].to_owned()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+/// The folder of shared models: beside the checkout, or beside the folder of its worktrees.
+fn shared_models() -> Option<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    ["../shared/models", "../../shared/models"].iter().map(|path| root.join(path)).find(|path| path.is_dir())
+}
+
+const SMALL: [&str; 2] = ["--size", "96x54"];
+
+#[test]
+fn list_names_everything_there_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = good(folder.path(), &["list"]);
+    let json: Value = serde_json::from_str(&good(folder.path(), &["list", "--json"])).unwrap();
+    let mut count = 0;
+    for kind in ["scenes", "techniques", "shows"] {
+        for entry in json[kind].as_array().unwrap() {
+            let (name, about) = (entry["name"].as_str().unwrap(), entry["about"].as_str().unwrap());
+            assert!(text.lines().any(|line| line.trim_start().starts_with(name) && line.contains(about)), "{name}");
+            count += 1;
+        }
+    }
+    assert_eq!(json["scenes"].as_array().unwrap().len(), 5);
+    assert_eq!(count, 5 + Technique::ALL.len() + Show::ALL.len());
+}
+
+#[test]
+fn a_reader_that_has_had_enough_is_no_error() {
+    let folder = tempfile::tempdir().unwrap();
+    for arguments in [&["list"][..], &["--help"], &["info", "cubes"]] {
+        let mut child = obscura(folder.path()).args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(String::from_utf8_lossy(&output.stderr), "", "{arguments:?}");
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}");
+    }
+}
+
+#[test]
+fn info_tells_what_every_stock_scene_is_made_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let list: Value = serde_json::from_str(&good(folder.path(), &["list", "--json"])).unwrap();
+    for scene in list["scenes"].as_array().unwrap() {
+        let name = scene["name"].as_str().unwrap();
+        let info: Value = serde_json::from_str(&good(folder.path(), &["info", name, "--json"])).unwrap();
+        assert!(info.is_object(), "{name}");
+        let text = good(folder.path(), &["info", name]);
+        for word in ["triangle", "light", "camera", "closed"] {
+            assert!(text.contains(word), "{name} says nothing of {word}s:\n{text}");
+        }
+    }
+}
+
+#[test]
+fn the_same_arguments_give_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = ["--technique", "exact-z-pass", "--time", "1.5"];
+    for out in ["a.png", "b.png"] {
+        let stdout = good(folder.path(), &[&["render", "courtyard", "--out", out], &SMALL[..], &arguments].concat());
+        assert_eq!(stdout, "");
+    }
+    let bytes = |name| std::fs::read(folder.path().join(name)).unwrap();
+    assert!(bytes("a.png") == bytes("b.png"));
+    assert_eq!(names(folder.path()), ["a.png", "b.png"]);
+    let picture = image::open(folder.path().join("a.png")).unwrap().to_rgb8();
+    assert_eq!(picture.dimensions(), (96, 54));
+    let first = picture.get_pixel(0, 0);
+    assert!(picture.pixels().any(|pixel| pixel != first), "there is something in the picture");
+}
+
+#[test]
+fn the_command_in_a_picture_draws_it_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = ["--eye", "-3.1,2.7,4.9", "--target", "0.1,0.4,-0.3", "--light-edit", "0:color=1;0.5;0.1,shadows=false"];
+    good(folder.path(), &[&["render", "cubes", "--out", "a.png"], &SMALL[..], &arguments].concat());
+    let path = folder.path().join("a.png");
+    let words = shlex::split(&read_command(&path).unwrap().unwrap()).unwrap();
+    let words: Vec<_> = words.iter().skip(1).map(String::as_str).collect();
+    good(folder.path(), &words);
+    let again = folder.path().join("obscura.png");
+    assert!(std::fs::read(path).unwrap() == std::fs::read(again).unwrap());
+}
+
+#[test]
+fn json_tells_the_plan_and_the_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let json = good(folder.path(), &[&["render", "eye-in-shadow", "--out", "a.png", "--json"], &SMALL[..]].concat());
+    let report: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(report["size"], serde_json::json!([96, 54]));
+    assert_eq!(report["technique"], "z-fail");
+    assert!(!report["adapter"].as_str().unwrap().is_empty());
+    assert!(report["steps"].as_array().unwrap().iter().all(|step| step["label"].is_string() && step["why"].is_string()));
+    let counted = &report["volumes"][0]["counted"];
+    let casters: u64 = counted.as_array().unwrap().iter().map(|group| group["casters"].as_u64().unwrap()).sum();
+    assert!(casters > 0, "{counted}");
+    assert!(report["frame"]["draws"].as_u64().unwrap() > 0);
+    assert!(report["timings"]["second_frame_ms"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn every_technique_and_show_draws() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut pictures = Vec::new();
+    let shows = Show::ALL.into_iter().map(|show| (Technique::ZFail, show));
+    for (technique, show) in shows.chain(Technique::ALL.into_iter().map(|technique| (technique, Show::Final))) {
+        let out = format!("{}-{}.png", technique.name(), show.name());
+        let choice = ["--technique", technique.name(), "--show", show.name(), "--out", &out];
+        good(folder.path(), &[&["render", "eye-in-shadow"], &SMALL[..], &choice].concat());
+        pictures.push((technique, show, image::open(folder.path().join(out)).unwrap().to_rgb8()));
+    }
+    // What is shown makes a difference, and so do shadows; z-pass fails here, on purpose.
+    let of = |technique, show| &pictures.iter().find(|one| (one.0, one.1) == (technique, show)).unwrap().2;
+    for show in [Show::Stencil, Show::Shadow, Show::Volumes, Show::Wireframe] {
+        assert!(of(Technique::ZFail, show) != of(Technique::ZFail, Show::Final), "{show:?}");
+    }
+    for technique in [Technique::None, Technique::ZPass] {
+        assert!(of(technique, Show::Final) != of(Technique::ZFail, Show::Final), "{technique:?}");
+    }
+}
+
+#[test]
+fn bad_input_is_one_line_and_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::write(here.join("empty.glb"), "").unwrap();
+    std::fs::write(here.join("noise.glb"), [0xA5; 300]).unwrap();
+    std::fs::write(here.join("truncated.glb"), b"glTF\x02\0\0\0\xff\0\0\0\x10\0\0\0JSON{").unwrap();
+    std::fs::write(here.join("text.gltf"), "once upon a time").unwrap();
+    std::fs::create_dir(here.join("folder.glb")).unwrap();
+    let before = names(here);
+    let cases: &[(&[&str], &str)] = &[
+        (&["courtyad"], "stock scenes are: "),
+        (&["missing.glb"], "missing.glb"),
+        (&["no/such/folder/a.glb"], "no/such/folder/a.glb"),
+        (&["empty.glb"], "empty.glb"),
+        (&["noise.glb"], "noise.glb"),
+        (&["truncated.glb"], "truncated.glb"),
+        (&["text.gltf"], "text.gltf"),
+        (&["folder.glb"], "folder.glb"),
+        (&[""], "empty"),
+        (&["cubes", "--technique", "magic"], "there are: none, z-pass"),
+        (&["cubes", "--show", "magic"], "there are: final"),
+        (&["cubes", "--camera", "magic"], "no camera `magic`"),
+        (&["cubes", "--camera", "99"], "no camera `99`"),
+        (&["cubes", "--light", "99"], "no light 99"),
+        (&["cubes", "--light", "18446744073709551616"], "no light"),
+        (&["cubes", "--light-edit", "99:on=false"], "no light 99"),
+        (&["cubes", "--animation", "99"], "no animation 99"),
+        (&["cubes", "--size", "0x0"], "0x0"),
+        (&["cubes", "--size", "96x0"], "96x0"),
+        (&["cubes", "--size", "100000x100000"], "1 to 8192"),
+        (&["cubes", "--size", "99999999999999999999x1"], "1 to 8192"),
+        (&["cubes", "--samples", "2"], "2 samples"),
+        (&["cubes", "--eye", "nan,0,0", "--target", "0,0,0"], "eye"),
+        (&["cubes", "--eye", "0,0,0", "--target", "0,-inf,0"], "target"),
+        (&["cubes", "--eye", "1,1,1", "--target", "1,1,1"], "same point"),
+        (&["cubes", "--fov", "-1"], "field of view"),
+        (&["cubes", "--fov", "180"], "field of view"),
+        (&["cubes", "--time", "-0.5"], "time"),
+        (&["cubes", "--time", "nan"], "time"),
+        (&["cubes", "--exposure", "inf"], "exposure"),
+        (&["cubes", "--light-edit", "0:position=0;nan;0"], "position"),
+        (&["cubes", "--adapter", "no such adapter"], "no such adapter"),
+        (&["cubes", "--shaders", "no-such-folder"], "no-such-folder"),
+    ];
+    for (arguments, expected) in cases {
+        let message = bad(here, &[&["render", "--out", "a.png"], *arguments].concat());
+        assert!(message.contains(expected), "{arguments:?}: {message}");
+        assert_eq!(names(here), before, "{arguments:?}");
+    }
+    for (out, expected) in [("nowhere/a.png", "nowhere"), ("folder.glb", ".png"), ("a.jpg", ".png")] {
+        let message = bad(here, &["render", "cubes", "--size", "8x8", "--out", out]);
+        assert!(message.contains(expected), "{out:?}: {message}");
+        assert_eq!(names(here), before, "{out:?}");
+    }
+    for scene in ["missing.glb", "noise.glb", "courtyad"] {
+        assert!(bad(here, &["info", scene]).contains(scene));
+    }
+}
+
+#[cfg(target_os = "linux")] // elsewhere other drivers than Vulkan's draw
+#[test]
+fn no_device_is_one_line_that_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = obscura(folder.path());
+    // The Vulkan loader then finds no driver at all.
+    command.env("VK_DRIVER_FILES", "/nonexistent").env("VK_ICD_FILENAMES", "/nonexistent");
+    let output = command.args(["render", "cubes", "--out", "a.png"]).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(said.starts_with("obscura: error: no graphics device"), "{said}");
+    assert_eq!(names(folder.path()), Vec::<String>::new());
+}
+
+#[test]
+fn a_failed_run_leaves_the_picture_that_was_there() {
+    let folder = tempfile::tempdir().unwrap();
+    good(folder.path(), &[&["render", "cubes", "--out", "a.png"], &SMALL[..]].concat());
+    let before = std::fs::read(folder.path().join("a.png")).unwrap();
+    bad(folder.path(), &["render", "cubes", "--out", "a.png", "--light", "99"]);
+    assert!(std::fs::read(folder.path().join("a.png")).unwrap() == before);
+    good(folder.path(), &[&["render", "cubes", "--technique", "none", "--out", "a.png"], &SMALL[..]].concat());
+    assert!(std::fs::read(folder.path().join("a.png")).unwrap() != before);
+    assert_eq!(names(folder.path()), ["a.png"]);
+}
+
+#[test]
+fn wrong_usage_is_exit_code_2_and_says_what_is_wrong_first() {
+    let folder = tempfile::tempdir().unwrap();
+    for arguments in [
+        &["render", "cubes"][..],
+        &["render"],
+        &["render", "cubes", "--out"],
+        &["render", "cubes", "--out", ""],
+        &["render", "cubes", "--out", "a.png", "--nonsense"],
+        &["render", "cubes", "--out", "a.png", "--size", "large"],
+        &["render", "cubes", "--out", "a.png", "--eye", "1,2,3"],
+        &["render", "cubes", "--out", "a.png", "--fov", "wide"],
+        &["cubes", "--vsync", "perhaps"],
+        &["cubes", "teapots"],
+        &["info"],
+    ] {
+        let output = run(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(output.stdout.is_empty());
+        assert!(output.stderr.starts_with(b"error: "), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    }
+    assert_eq!(names(folder.path()), Vec::<String>::new());
+}
+
+#[test]
+fn help_and_version_are_no_errors() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(good(folder.path(), &["--help"]).contains("render"));
+    assert!(good(folder.path(), &["render", "--help"]).contains("exact-z-pass"));
+    assert!(good(folder.path(), &["--version"]).starts_with("obscura "));
+}
+
+#[test]
+fn a_window_without_a_display_points_to_render() {
+    let folder = tempfile::tempdir().unwrap();
+    let message = bad(folder.path(), &["cubes"]);
+    assert!(message.contains("no display") && message.contains("obscura render"), "{message}");
+}
+
+#[test]
+fn without_a_display_the_tour_starts_by_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    // The whole tour takes long on a software device: it is enough to see it draw its first picture.
+    let mut child = obscura(folder.path()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let out = folder.path().join("out");
+    let whole = || -> Option<PathBuf> {
+        let mut entries = std::fs::read_dir(&out).ok()?.filter_map(Result::ok).map(|entry| entry.path());
+        entries.find(|path| !path.file_name().unwrap().to_str().unwrap().starts_with('.'))
+    };
+    let mut first = None;
+    for _ in 0..1200 {
+        first = whole();
+        if first.is_some() || child.try_wait().unwrap().is_some() {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let first = first.expect("a picture within a minute");
+    let picture = image::open(first).expect("a whole picture, however early the tour ends");
+    assert_eq!((picture.width(), picture.height()), (1280, 720));
+}
+
+#[test]
+fn hostile_files_are_one_line_each() {
+    let Some(models) = shared_models() else {
+        println!("no ../shared/models here: skipped");
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let mut count = 0;
+    for entry in std::fs::read_dir(models.join("hostile")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "gltf") {
+            continue;
+        }
+        let (name, path) = (path.file_name().unwrap().to_str().unwrap().to_owned(), path.to_str().unwrap().to_owned());
+        for arguments in [&["info", &path][..], &["render", &path, "--out", "a.png"]] {
+            let message = bad(folder.path(), arguments);
+            assert!(message.contains(&name), "{message}");
+        }
+        assert_eq!(names(folder.path()), Vec::<String>::new());
+        count += 1;
+    }
+    assert!(count > 0);
+}
