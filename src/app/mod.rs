@@ -7,6 +7,10 @@
 
 pub mod clock;
 pub mod control;
+pub mod device;
 pub mod keys;
+pub mod pace;
+pub mod photo;
 pub mod store;
 pub mod surface;
+pub mod ui;

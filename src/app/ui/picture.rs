@@ -1,0 +1,108 @@
+//! The picture's part of the window: what mouse and held keys do there.
+
+use egui::{PointerButton, Rect, Response, Sense, Ui};
+use glam::DVec2;
+
+use super::{Desk, Panel, View, gizmo};
+use crate::app::control::{self, Mode};
+use crate::app::keys;
+use crate::frame::Camera;
+
+/// Points of wheel travel that egui reports for one notch.
+const NOTCH: f64 = 50.0;
+
+/// Takes what is left of the window for the picture; moves the camera and the lights.
+pub fn picture(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_>) -> Rect {
+    let rect = ui.available_rect_before_wrap();
+    let response = ui.allocate_rect(rect, Sense::click_and_drag());
+    super::style::name_it(&response, "Picture");
+    let scale = ui.ctx().pixels_per_point();
+    desk.settings.size = [rect.width(), rect.height()].map(|side| (side * scale).round().max(1.0) as u32);
+    if response.clicked() || response.drag_started() {
+        ui.ctx().memory_mut(|memory| {
+            if let Some(focused) = memory.focused() {
+                memory.surrender_focus(focused);
+            }
+        });
+    }
+    let Some(camera) = super::camera_of(desk.settings, view) else { return rect };
+    if let Some(at) = ui.input(|input| input.pointer.press_origin())
+        && response.drag_started_by(PointerButton::Primary)
+    {
+        panel.drag = gizmo::grab(panel.selected_light, desk, view, &camera, rect, at);
+        if let Some(drag) = panel.drag {
+            panel.choose_light(drag.light);
+        }
+    }
+    if response.clicked()
+        && let Some(at) = response.interact_pointer_pos()
+    {
+        match gizmo::grab(None, desk, view, &camera, rect, at) {
+            Some(light) => panel.choose_light(light.light),
+            None => panel.selected_light = None,
+        }
+    }
+    if let Some(mut drag) = panel.drag
+        && let Some(mouse) = response.interact_pointer_pos()
+        && response.dragged_by(PointerButton::Primary)
+    {
+        gizmo::follow(&mut drag, desk, &camera, rect, mouse, ui.input(|input| input.modifiers.shift));
+        panel.drag = Some(drag);
+    } else {
+        panel.drag = None;
+        turn(&response, desk, &camera, rect);
+    }
+    wheel(ui, &response, desk, view);
+    fly(ui, desk, view);
+    if let Some(camera) = super::camera_of(desk.settings, view) {
+        gizmo::paint(ui, panel.selected_light, panel.drag, desk, view, &camera, rect);
+    }
+    rect
+}
+
+fn turn(response: &Response, desk: &mut Desk<'_>, camera: &Camera, rect: Rect) {
+    let moved = response.drag_delta() / rect.height().max(1.0);
+    if moved == egui::Vec2::ZERO {
+        return;
+    }
+    let moved = DVec2::new(f64::from(moved.x), f64::from(moved.y));
+    let place = if response.dragged_by(PointerButton::Primary) {
+        match desk.preferences.mode {
+            Mode::Orbit => control::orbit(camera, moved),
+            Mode::Fly => control::look(camera, moved),
+        }
+    } else {
+        control::pan(camera, moved)
+    };
+    control::place(desk.settings, camera, place);
+}
+
+fn wheel(ui: &Ui, response: &Response, desk: &mut Desk<'_>, view: &View<'_>) {
+    let notches = f64::from(ui.input(|input| input.smooth_scroll_delta().y)) / NOTCH;
+    if notches == 0.0 || !response.hovered() {
+        return;
+    }
+    match (desk.preferences.mode, super::camera_of(desk.settings, view)) {
+        (Mode::Orbit, Some(camera)) => control::place(desk.settings, &camera, control::zoom(&camera, notches)),
+        (Mode::Fly, _) => {
+            desk.preferences.fly_speed = (desk.preferences.fly_speed * 1.15f64.powf(notches)).clamp(0.05, 200.0);
+        }
+        (Mode::Orbit, None) => {}
+    }
+}
+
+fn fly(ui: &Ui, desk: &mut Desk<'_>, view: &View<'_>) {
+    if ui.ctx().egui_wants_keyboard_input() {
+        return;
+    }
+    let ([right, up, forward], fast, elapsed) =
+        ui.input(|input| (keys::flight(input), input.modifiers.shift, f64::from(input.stable_dt).min(0.1)));
+    if [right, up, forward] == [0.0; 3] {
+        return;
+    }
+    ui.ctx().request_repaint();
+    if let Some(camera) = super::camera_of(desk.settings, view) {
+        let metres = desk.preferences.fly_speed * elapsed * if fast { 4.0 } else { 1.0 };
+        control::place(desk.settings, &camera, control::fly(&camera, right * metres, up * metres, forward * metres));
+    }
+}

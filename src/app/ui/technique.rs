@@ -1,0 +1,75 @@
+//! How shadows are counted, what is shown of it, and how many samples a pixel has.
+
+use egui::{RichText, Ui};
+
+use super::style::{self, explain, field, slider};
+use super::{Desk, View};
+use crate::settings::Show;
+use crate::techniques::TABLE;
+
+/// The techniques, each with its sentence.
+pub fn techniques(ui: &mut Ui, desk: &mut Desk<'_>) {
+    for row in &TABLE {
+        let chosen = desk.settings.technique == row.technique;
+        let title = RichText::new(row.title).strong();
+        let response = ui.add(egui::Button::selectable(chosen, title).min_size(egui::vec2(ui.available_width(), 0.0)));
+        if response.on_hover_text(format!("{}\nSource: {}", row.about, row.source)).clicked() {
+            desk.settings.technique = row.technique;
+        }
+        explain(ui, row.about);
+    }
+}
+
+/// What is shown, and of which light.
+pub fn show(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
+    ui.horizontal_wrapped(|ui| {
+        for show in Show::ALL {
+            let response = ui.selectable_label(desk.settings.show == show, capital(show.name()));
+            if response.on_hover_text(show.about()).clicked() {
+                desk.settings.show = show;
+            }
+        }
+    });
+    explain(ui, format!("{}.", capital(desk.settings.show.about())));
+    let lights = view.scene.map_or(&[][..], |scene| &scene.lights);
+    let of_one_light = matches!(desk.settings.show, Show::Stencil | Show::Shadow | Show::Volumes);
+    ui.add_enabled_ui(of_one_light && !lights.is_empty(), |ui| {
+        field(ui, "Light", "The light whose stencil count, shadow or volumes are shown", |ui| {
+            let name =
+                |index: usize| lights.get(index).map_or_else(|| format!("{index}"), |light| format!("{index}  {}", light.name));
+            egui::ComboBox::from_id_salt("light-k")
+                .selected_text(name(desk.settings.light))
+                .show_ui(ui, |ui| {
+                    for index in 0..lights.len() {
+                        ui.selectable_value(&mut desk.settings.light, index, name(index));
+                    }
+                })
+                .response
+        });
+    });
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Samples").color(style::WEAK));
+        let four = view.capabilities.is_none_or(|capabilities| capabilities.four_samples);
+        for samples in [1, 4] {
+            let words = if samples == 1 { "1 a pixel" } else { "4 a pixel" };
+            let tip = "Samples a pixel: 4 smooths every edge, and costs about ten times as much on a software GPU";
+            let response =
+                ui.add_enabled(samples == 1 || four, egui::Button::selectable(desk.settings.samples == samples, words));
+            if response.on_hover_text(tip).on_disabled_hover_text("This device draws 1 sample a pixel only").clicked() {
+                desk.settings.samples = samples;
+            }
+        }
+    });
+    ui.checkbox(&mut desk.settings.smooth_terminator, "Smooth terminator").on_hover_text(
+        "Light reaches zero before any facet turns away from it, so that smooth-shaded meshes show no faceted shadow edge",
+    );
+    field(ui, "Exposure", "Stops added to the scene's own exposure", |ui| {
+        ui.add(slider(&mut desk.settings.exposure, -6.0..=6.0).fixed_decimals(1).suffix(" stops"))
+    });
+}
+
+/// `words` with a capital letter.
+pub fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

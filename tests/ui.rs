@@ -1,0 +1,428 @@
+//! Clicks through the panel without a window: each control changes exactly what it says.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a failed unwrap is a failed test
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use glam::{DAffine3, DVec3, Vec3};
+use obscura::app::control::Mode;
+use obscura::app::keys;
+use obscura::app::store::Preferences;
+use obscura::app::ui::{Action, Desk, FrameNumbers, History, Notice, Panel, Tone, Topic, View, project, style};
+use obscura::frame::{Camera, Capabilities};
+use obscura::scene::stock::StockScene;
+use obscura::scene::{self, Light, LightKind, Node, Pose, PosedLight, Scene};
+use obscura::settings::{CameraChoice, LightEdit, SceneChoice, Settings, Show, Technique};
+use obscura::techniques::TABLE;
+
+/// Everything around the panel that the window would hold.
+struct Bench {
+    settings: Settings,
+    preferences: Preferences,
+    panel: Panel,
+    scene: Scene,
+    pose: Pose,
+    notices: Vec<Notice>,
+    capabilities: Capabilities,
+    history: History,
+    actions: Vec<Action>,
+    picture: egui::Rect,
+}
+
+static STOCK: [StockScene; 2] = [
+    StockScene { name: "cubes", about: "four cubes", build: || Ok(Scene::default()) },
+    StockScene { name: "grid", about: "many cubes", build: || Ok(Scene::default()) },
+];
+
+impl Bench {
+    /// A scene with two lights and two cameras, and nothing else: the panel needs no more.
+    fn new() -> Self {
+        let places =
+            [DVec3::new(0.6, 3.0, 1.0), DVec3::new(-0.8, 2.0, 0.0), DVec3::new(0.0, 2.0, 8.0), DVec3::new(0.0, 20.0, 0.1)];
+        let light = |name: &str, node| Light {
+            name: name.into(),
+            node,
+            kind: LightKind::Point,
+            color: Vec3::new(1.0, 0.5, 0.25),
+            intensity: 40.0,
+            range: 12.0,
+        };
+        let camera = |name: &str, node, vertical_fov| scene::Camera {
+            name: name.into(),
+            node,
+            vertical_fov,
+            near: 0.1,
+            focus_distance: 8.0,
+        };
+        let scene = Scene {
+            nodes: places.iter().map(|_| Node::default()).collect(),
+            lights: vec![light("lamp", 0), light("torch", 1)],
+            cameras: vec![camera("front", 2, 0.9), camera("above", 3, 0.6)],
+            animations: vec![scene::Animation { name: "turn".into(), channels: Vec::new(), duration: 4.0 }],
+            warnings: vec!["material `glass`: transmission is left out".into()],
+            ..Scene::default()
+        };
+        let world_from_node: Vec<_> = places.into_iter().map(DAffine3::from_translation).collect();
+        let lights = scene.lights.iter().map(|light| PosedLight {
+            position: places[light.node],
+            direction: DVec3::NEG_Z,
+            kind: light.kind,
+            intensity: light.color * light.intensity,
+            range: f64::from(light.range),
+            on: true,
+            shadows: true,
+        });
+        let pose =
+            Pose { lights: lights.collect(), world_from_object: world_from_node.clone(), world_from_node, ..Pose::default() };
+        Self {
+            settings: Settings::default(),
+            preferences: Preferences::default(),
+            panel: Panel::default(),
+            scene,
+            pose,
+            notices: Vec::new(),
+            capabilities: Capabilities::complete(),
+            history: History::default(),
+            actions: Vec::new(),
+            picture: egui::Rect::NOTHING,
+        }
+    }
+
+    fn pass(&mut self, ui: &mut egui::Ui) {
+        let view = View {
+            stock: &STOCK,
+            scene: Some(&self.scene),
+            pose: Some(&self.pose),
+            plan: None,
+            doctor: "mesh 0 is closed",
+            opening: None,
+            notices: &self.notices,
+            capabilities: Some(&self.capabilities),
+            history: &self.history,
+        };
+        let desk = Desk { settings: &mut self.settings, preferences: &mut self.preferences };
+        let outcome = self.panel.show(ui, desk, &view);
+        self.actions.extend(outcome.actions);
+        self.picture = outcome.picture;
+    }
+}
+
+/// A panel tall enough to show every section without scrolling.
+fn open(bench: Bench) -> Harness<'static, Bench> {
+    let builder = Harness::builder().with_size(vec2(1280.0, 2400.0)).with_context_setup(style::install);
+    let mut harness = builder.build_ui_state(|ui, bench: &mut Bench| bench.pass(ui), bench);
+    harness.run_steps(3);
+    harness
+}
+
+fn click(harness: &mut Harness<'_, Bench>, label: &str) {
+    harness.get_by_role_and_label(Role::Button, label).click();
+    harness.run_steps(3);
+}
+
+fn press(harness: &mut Harness<'_, Bench>, key: Key) {
+    harness.key_press(key);
+    harness.run_steps(2);
+}
+
+/// The settings after a click, but for the picture's size, which is the window's.
+fn settings(harness: &Harness<'_, Bench>) -> Settings {
+    Settings { size: Settings::default().size, ..harness.state().settings.clone() }
+}
+
+fn camera(bench: &Bench) -> Camera {
+    Camera::choose(&bench.settings, &bench.scene, &bench.pose).unwrap()
+}
+
+#[test]
+fn each_technique_changes_just_the_technique() {
+    let mut harness = open(Bench::new());
+    for row in TABLE.iter().rev() {
+        click(&mut harness, row.title);
+        assert_eq!(settings(&harness), Settings { technique: row.technique, ..Settings::default() });
+        assert!(harness.query_by_label_contains(row.about).is_some(), "{} is explained", row.title);
+    }
+    assert_eq!(harness.state().actions, []);
+}
+
+#[test]
+fn each_show_changes_just_the_show() {
+    let mut harness = open(Bench::new());
+    for show in Show::ALL.into_iter().rev() {
+        let name = show.name();
+        click(&mut harness, &format!("{}{}", name[..1].to_uppercase(), &name[1..]));
+        assert_eq!(settings(&harness), Settings { show, ..Settings::default() });
+    }
+}
+
+#[test]
+fn samples_and_switches_change_themselves() {
+    let mut harness = open(Bench::new());
+    click(&mut harness, "4 a pixel");
+    assert_eq!(settings(&harness), Settings { samples: 4, ..Settings::default() });
+    click(&mut harness, "1 a pixel");
+    assert_eq!(settings(&harness), Settings::default());
+    harness.get_by_label("Smooth terminator").click();
+    harness.get_by_label("Floor beneath a file's scene").click();
+    harness.run_steps(3);
+    assert_eq!(settings(&harness), Settings { smooth_terminator: false, floor: true, ..Settings::default() });
+}
+
+#[test]
+fn what_the_device_lacks_is_said_and_switched_off() {
+    let mut bench = Bench::new();
+    bench.capabilities =
+        Capabilities { four_samples: false, depth_clip_control: false, timestamps: false, ..Capabilities::complete() };
+    let mut harness = open(bench);
+    click(&mut harness, "4 a pixel");
+    press(&mut harness, Key::M);
+    assert_eq!(settings(&harness), Settings::default());
+    harness.get_by_label("Device").click();
+    harness.run_steps(5);
+    let lacks = harness.state().capabilities.lacks();
+    assert_eq!(lacks.len(), 3);
+    for lack in lacks {
+        assert!(harness.query_by_label_contains(lack.feature).is_some(), "{}", lack.feature);
+        assert!(harness.query_by_label_contains(lack.instead).is_some(), "{}", lack.instead);
+    }
+}
+
+#[test]
+fn a_scene_is_asked_for_not_set() {
+    let mut harness = open(Bench::new());
+    click(&mut harness, "grid");
+    assert_eq!(harness.state().actions, [Action::Open(SceneChoice::Stock("grid".into()))]);
+    assert_eq!(settings(&harness), Settings::default(), "the running scene stays until the new one is there");
+}
+
+#[test]
+fn a_typed_path_is_opened() {
+    let mut harness = open(Bench::new());
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    harness.run_steps(3);
+    assert!(harness.get_by_label("Path").is_focused());
+    harness.get_by_label("Path").type_text("/models/n \u{e9}.glb");
+    harness.run_steps(2);
+    press(&mut harness, Key::Enter);
+    assert_eq!(harness.state().actions, [Action::Open(SceneChoice::File("/models/n \u{e9}.glb".into()))]);
+    assert_eq!(settings(&harness), Settings::default(), "letters typed into the field are no commands");
+}
+
+#[test]
+fn recent_files_open_again() {
+    let mut bench = Bench::new();
+    bench.preferences.opened("/models/duck.glb".as_ref());
+    let mut harness = open(bench);
+    click(&mut harness, "Recent files");
+    click(&mut harness, "duck.glb");
+    assert_eq!(harness.state().actions, [Action::Open(SceneChoice::File("/models/duck.glb".into()))]);
+}
+
+#[test]
+fn lights_are_edited_one_by_one_and_reset() {
+    let mut harness = open(Bench::new());
+    harness.get_by_label("Light 1 on").click();
+    harness.run_steps(3);
+    let off = LightEdit { on: Some(false), ..LightEdit::default() };
+    assert_eq!(settings(&harness).lights, [(1, off)].into());
+    harness.get_by_label("Light 1 on").click();
+    harness.run_steps(3);
+    assert_eq!(settings(&harness), Settings::default(), "switched on again, nothing is left of it");
+
+    // Unfold light 0 by picking it on the picture, as people do.
+    let bench = harness.state();
+    let at = project(&camera(bench), bench.picture, bench.pose.lights[0].position).unwrap();
+    harness.drag_at(at);
+    harness.run_steps(2);
+    harness.drop_at(at);
+    harness.run_steps(6);
+    harness.get_by_label("Casts shadows").click();
+    harness.run_steps(3);
+    let shadowless = LightEdit { shadows: Some(false), ..LightEdit::default() };
+    assert_eq!(settings(&harness).lights, [(0, shadowless)].into());
+    click(&mut harness, "Reset light 0");
+    assert_eq!(settings(&harness), Settings::default());
+}
+
+#[test]
+fn a_light_follows_the_mouse() {
+    let mut harness = open(Bench::new());
+    let bench = harness.state();
+    let (picture, start, camera) = (bench.picture, bench.pose.lights[0].position, camera(bench));
+    let from = project(&camera, picture, start).unwrap();
+    let to = from + vec2(-120.0, 60.0);
+    harness.drag_at(from);
+    harness.run_steps(2);
+    for at in [from + vec2(-30.0, 20.0), to] {
+        harness.hover_at(at);
+        harness.run_steps(2);
+    }
+    harness.drop_at(to);
+    harness.run_steps(2);
+    let settings = settings(&harness);
+    let moved = settings.lights[&0].position.unwrap();
+    assert!(project(&camera, picture, moved).unwrap().distance(to) < 1.0, "the icon is under the mouse");
+    assert!((moved - start).dot(camera.forward).abs() < 1e-6, "in the plane facing the camera");
+    assert_eq!(settings.camera, CameraChoice::First, "the camera stays");
+}
+
+#[test]
+fn dragging_the_picture_moves_the_eye_about_its_target() {
+    let mut harness = open(Bench::new());
+    let before = camera(harness.state());
+    let from = harness.state().picture.center() + vec2(-200.0, 300.0);
+    harness.drag_at(from);
+    harness.run_steps(2);
+    harness.hover_at(from + vec2(90.0, 40.0));
+    harness.run_steps(2);
+    harness.drop_at(from + vec2(90.0, 40.0));
+    harness.run_steps(2);
+    let CameraChoice::Free { eye, target } = harness.state().settings.camera else { panic!("the camera is free now") };
+    assert!(target.distance(before.target()) < 1e-6);
+    assert!(eye.distance(before.eye) > 0.1 && (eye.distance(target) - before.focus_distance).abs() < 1e-6);
+    assert!(harness.state().settings.lights.is_empty(), "no light moved");
+}
+
+#[test]
+fn keys_do_what_the_table_says() {
+    let mut harness = open(Bench::new());
+    for (key, technique) in [Key::Num1, Key::Num2, Key::Num3, Key::Num4].into_iter().zip(Technique::ALL) {
+        press(&mut harness, key);
+        assert_eq!(settings(&harness), Settings { technique, ..Settings::default() });
+    }
+    press(&mut harness, Key::T);
+    assert_eq!(settings(&harness).technique, Technique::None, "after the last comes the first");
+    press(&mut harness, Key::V);
+    assert_eq!(settings(&harness).show, Show::Stencil);
+    press(&mut harness, Key::L);
+    assert_eq!(settings(&harness).light, 1);
+    press(&mut harness, Key::L);
+    assert_eq!(settings(&harness).light, 0);
+    press(&mut harness, Key::M);
+    assert_eq!(settings(&harness).samples, 4);
+    press(&mut harness, Key::C);
+    assert_eq!(settings(&harness).camera, CameraChoice::Named("above".into()));
+    press(&mut harness, Key::R);
+    assert_eq!(settings(&harness).camera, CameraChoice::First);
+    press(&mut harness, Key::O);
+    assert_eq!(harness.state().preferences.mode, Mode::Fly);
+    press(&mut harness, Key::Space);
+    assert!(!harness.state().preferences.clock.playing);
+    press(&mut harness, Key::Period);
+    assert!((settings(&harness).time - obscura::app::clock::STEP).abs() < 1e-9);
+    press(&mut harness, Key::CloseBracket);
+    assert_eq!(harness.state().preferences.clock.speed, 2.0);
+    press(&mut harness, Key::G);
+    assert!(!harness.state().preferences.icons);
+    assert_eq!(harness.state().actions, []);
+    press(&mut harness, Key::N);
+    press(&mut harness, Key::F12);
+    press(&mut harness, Key::F5);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Q);
+    harness.run_steps(2);
+    let scene = Action::Open(SceneChoice::Stock("cubes".into()));
+    assert_eq!(harness.state().actions, [scene, Action::Screenshot, Action::Reload, Action::Quit]);
+}
+
+#[test]
+fn held_keys_fly() {
+    let mut harness = open(Bench::new());
+    let before = camera(harness.state());
+    harness.key_down(Key::W);
+    harness.run_steps(6);
+    harness.key_up(Key::W);
+    harness.run_steps(2);
+    let CameraChoice::Free { eye, .. } = harness.state().settings.camera else { panic!("the camera is free now") };
+    let way = eye - before.eye;
+    assert!(way.length() > 0.05 && way.normalize().dot(before.forward) > 0.999, "{way}");
+}
+
+#[test]
+fn copy_and_screenshot_are_asked_for() {
+    let mut harness = open(Bench::new());
+    click(&mut harness, "Copy");
+    click(&mut harness, "Save picture");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::C);
+    harness.run_steps(2);
+    assert_eq!(harness.state().actions, [Action::CopyCommand, Action::Screenshot, Action::CopyCommand]);
+    assert_eq!(settings(&harness), Settings::default());
+}
+
+#[test]
+fn the_help_lists_every_key() {
+    let mut harness = open(Bench::new());
+    assert!(harness.query_by_label("Keys and mouse").is_none());
+    press(&mut harness, Key::F1);
+    harness.run_steps(5);
+    for row in keys::TABLE {
+        assert!(harness.query_all_by_label(row.keys).next().is_some(), "{} is listed", row.keys);
+        assert!(harness.query_all_by_label(row.about).next().is_some(), "{} is explained", row.keys);
+    }
+    press(&mut harness, Key::Escape);
+    harness.run_steps(5);
+    assert!(harness.query_all_by_label(keys::TABLE[0].about).next().is_none(), "Esc closes it");
+}
+
+#[test]
+fn errors_show_and_go() {
+    let mut bench = Bench::new();
+    let words = "broken.glb: accessor 3 reaches past its buffer view";
+    bench.notices.push(Notice { topic: Topic::Scene, tone: Tone::Error, words: words.into() });
+    let mut harness = open(bench);
+    assert!(harness.query_by_label(words).is_some());
+    click(&mut harness, "Dismiss");
+    assert_eq!(harness.state().actions, [Action::Dismiss(Topic::Scene)]);
+    press(&mut harness, Key::F2);
+    harness.run_steps(5);
+    assert!(harness.query_by_label("Save picture").is_none(), "the panel is hidden");
+    assert!(harness.query_by_label(words).is_some(), "but errors still show");
+}
+
+#[test]
+fn importer_notes_are_there_to_unfold() {
+    let mut harness = open(Bench::new());
+    harness.get_by_label("Import: 1 notes").click();
+    harness.run_steps(5);
+    assert!(harness.query_by_label_contains("material `glass`").is_some());
+}
+
+#[test]
+fn the_picture_has_the_rest_of_the_window() {
+    let mut harness = open(Bench::new());
+    let with = harness.state().settings.size;
+    assert!(with[0] > 700 && with[0] < 1010, "{with:?}");
+    press(&mut harness, Key::F2);
+    harness.run_steps(5);
+    assert!(harness.state().settings.size[0] > with[0] + 250);
+}
+
+#[test]
+fn time_is_played_paused_and_stepped() {
+    let mut harness = open(Bench::new());
+    click(&mut harness, "Pause");
+    assert!(!harness.state().preferences.clock.playing);
+    click(&mut harness, "Step");
+    assert!(settings(&harness).time > 0.0);
+    click(&mut harness, "Back");
+    assert_eq!(settings(&harness), Settings::default());
+}
+
+#[test]
+fn the_frame_is_told_in_numbers() {
+    let mut bench = Bench::new();
+    bench.history.push(FrameNumbers {
+        interval_ms: 16.7,
+        cpu_ms: 1.25,
+        gpu_ms: Some(7.5),
+        draws: 321,
+        triangles: 1_234_567,
+        volumes: 42,
+        volume_triangles: 98_765,
+    });
+    let harness = open(bench);
+    for number in ["1.25 ms", "7.50 ms", "321", "1 234 567", "42", "98 765"] {
+        assert!(harness.query_by_label(number).is_some(), "{number}");
+    }
+}
