@@ -11,6 +11,9 @@
 //! or of no volume. There every triangle counts, turned to face the light (the general form of
 //! Bergeron and of Kim et al.), which makes any heap of triangles cast the right shadow.
 //!
+//! A light inside a solid is faced by none of its triangles and shines out, as through a lamp's
+//! globe; inside soup it is shut in.
+//!
 //! Deformation moves vertices, not edges: a pose uses the topology, and the solid flags, of the
 //! shape that was built.
 

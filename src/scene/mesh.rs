@@ -279,6 +279,10 @@ impl SkinVertex {
         self.weights = self.weights.map(|weight| weight.max(0.0));
         let sum: f64 = self.weights.iter().map(|weight| f64::from(*weight)).sum();
         self.weights = if sum > 0.0 { self.weights.map(|weight| (f64::from(weight) / sum) as f32) } else { [1.0, 0.0, 0.0, 0.0] };
+        // A joint without weight moves nothing, and must not keep apart what is welded.
+        for (joint, _) in self.joints.iter_mut().zip(&self.weights).filter(|(_, weight)| **weight == 0.0) {
+            *joint = 0;
+        }
     }
 }
 
