@@ -186,7 +186,7 @@ fn hat() -> Shape {
     ]
     .map(DVec2::from)
     .to_vec();
-    lathe(&profile, 32, |p, _| p.x)
+    lathe(&profile, 28, |p, _| p.x)
         .map(|p| {
             let brim = ((p.x * p.x + p.z * p.z).sqrt() - 0.11).max(0.0) / 0.15;
             let roll = (p.x * p.x - p.z * p.z) * 0.9;
@@ -220,7 +220,7 @@ fn cape() -> Shape {
         (0.300, 1.03),
     ];
     let profile: Vec<DVec2> = outside.iter().chain(&inside).copied().map(DVec2::from).collect();
-    lathe(&profile, 48, |p, turns| p.x * (1.0 + 0.05 * ((1.42 - p.y) / 0.4).clamp(0.0, 1.0) * turn(turns * 12.0).x))
+    lathe(&profile, 36, |p, turns| p.x * (1.0 + 0.05 * ((1.42 - p.y) / 0.4).clamp(0.0, 1.0) * turn(turns * 9.0).x))
         .map(|p| DVec3::new(p.x * 1.06, p.y, p.z * 0.76 + 0.005))
         .painted(|p| if p.y < 1.055 { [0.42, 0.25, 0.07] } else { [0.30, 0.035, 0.03] })
         .creased(0.6)
@@ -230,9 +230,9 @@ fn cape() -> Shape {
 pub fn file() -> Vec<u8> {
     let parts = parts();
     let f = |p: DVec3| body(&parts, p);
-    let size = 0.027;
-    let cells = IVec3::new(48, 68, 16);
-    let low = DVec3::new(-0.5 * size * 48.0, -0.0205, -0.174);
+    let size = 0.0315;
+    let cells = IVec3::new(40, 58, 13);
+    let low = DVec3::new(-0.5 * size * 40.0, -0.0205, -0.174);
     let mut shape = surface_nets(&f, low, cells, size);
     let nearest = |p: DVec3| parts.iter().min_by(|a, b| a.distance(p).total_cmp(&b.distance(p))).map_or(SKIN, |part| part.color);
     shape.colors = shape.positions.iter().map(|&p| paint(nearest(p))).collect();

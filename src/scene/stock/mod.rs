@@ -1,4 +1,13 @@
-//! The built-in scenes.
+//! The built-in scenes, composed from the models in `assets/`, one file each.
+
+mod compose;
+mod courtyard;
+mod cubes;
+mod eye_in_shadow;
+mod grid;
+mod teapots;
+#[cfg(test)]
+mod tests;
 
 use super::Scene;
 use super::gltf::ImportError;
@@ -14,7 +23,33 @@ pub struct StockScene {
 }
 
 /// All built-in scenes, in the order people see them.
-pub static TABLE: &[StockScene] = &[];
+pub static TABLE: &[StockScene] = &[
+    StockScene {
+        name: "courtyard",
+        about: "a fountain between arcades at dusk, three coloured lights, two walkers, a swinging lantern",
+        build: courtyard::build,
+    },
+    StockScene {
+        name: "cubes",
+        about: "four cubes turn over a chequered floor and throw their shadows on a sphere (Beam 2004)",
+        build: cubes::build,
+    },
+    StockScene {
+        name: "teapots",
+        about: "Newell's teapots and balls under a hanging cut-out, whose letters fall on flat and curved alike (Kilgard 1999, figure 9)",
+        build: teapots::build,
+    },
+    StockScene {
+        name: "grid",
+        about: "a light wanders through a grid of cubes in an amphitheatre (McGuire et al. 2003, image 5)",
+        build: grid::build,
+    },
+    StockScene {
+        name: "eye-in-shadow",
+        about: "the camera stands in the shadow of a great disc and looks to the light: plain z-pass fails here",
+        build: eye_in_shadow::build,
+    },
+];
 
 /// The built-in scene of that name.
 #[must_use]

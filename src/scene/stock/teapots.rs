@@ -1,0 +1,65 @@
+//! Kilgard's figure 9: a cut-out hangs over teapots and balls; its pattern falls on the floor and
+//! bends over what is round. His was a planar polygon and the teapots threw no shadow; here the
+//! slab has a thickness, and everything shadows everything.
+
+use glam::DVec3;
+
+use super::compose::{CUTOUT, Composer, FLOORS, FURNITURE, SOLIDS, TEAPOT, at};
+use crate::scene::gltf::ImportError;
+use crate::scene::{LightKind, Scene};
+
+pub(super) fn build() -> Result<Scene, ImportError> {
+    let mut c = Composer::new("teapots", &[SOLIDS, FLOORS, TEAPOT, CUTOUT, FURNITURE])?;
+    c.environment([0.080, 0.085, 0.10], [0.055, 0.045, 0.04], [0.020, 0.020, 0.026], [0.052, 0.046, 0.044]);
+
+    let floor = c.prop("planks");
+    c.put("floor", floor, at(0.0, 0.0, 0.0).facing(90.0));
+
+    let teapot = c.prop("teapot");
+    let glazes = [
+        ("white teapot", [0.74, 0.70, 0.62], (0.15, 1.30, 25.0, 1.75)),
+        ("green teapot", [0.16, 0.38, 0.26], (-1.75, 0.80, 200.0, 1.6)),
+        ("blue teapot", [0.05, 0.12, 0.40], (1.75, 0.65, -35.0, 1.6)),
+    ];
+    for (name, color, (x, z, facing, size)) in glazes {
+        let glazed = c.tinted(teapot, color, 0.25);
+        c.put(name, glazed, at(x, 0.0, z).facing(facing).sized(size));
+    }
+    let ball = c.prop("ball");
+    let balls = [
+        ("red ball", [0.60, 0.06, 0.04], (-0.85, 1.75, 0.22)),
+        ("ochre ball", [0.70, 0.40, 0.08], (1.10, 1.70, 0.26)),
+        ("ivory ball", [0.72, 0.68, 0.60], (-0.55, 0.30, 0.32)),
+        ("grey ball", [0.20, 0.21, 0.24], (0.85, 0.05, 0.20)),
+    ];
+    for (name, color, (x, z, radius)) in balls {
+        let painted = c.tinted(ball, color, 0.3);
+        c.put(name, painted, at(x, radius, z).sized(radius * 2.0));
+    }
+
+    // The slab swings on four strings about a line far above.
+    let hook = c.group("hook", None, at(0.0, 6.0, -0.1));
+    c.swings(hook, 6.0, DVec3::X, 2.2);
+    let word = c.prop("word");
+    c.put_on(Some(hook), "cut-out", word, at(0.0, -4.2, 0.0).turned(DVec3::X, -62.0).sized(0.8));
+    let cube = c.prop("cube");
+    let string = c.tinted(cube, [0.10, 0.08, 0.06], 0.9);
+    for (x, z) in [(-1.3, -0.28), (1.3, -0.28), (-1.3, 0.28), (1.3, 0.28)] {
+        // From the slab's surface straight up.
+        let y = -4.2 - z * (62.0_f64.to_radians().tan().recip());
+        c.put_on(Some(hook), "string", string, at(x, y / 2.0, z).stretched(0.012, -y, 0.012));
+    }
+
+    let lamp = c.group("lamp", None, at(0.25, 4.3, -2.1));
+    c.light(lamp, LightKind::Point, [1.0, 0.88, 0.70], 46.0, 12.0);
+    c.moves(lamp, 9.0, 32, |turns| {
+        let (sin, cos) = (turns * std::f64::consts::TAU).sin_cos();
+        DVec3::new(0.25 * cos, 4.3 + 0.1 * sin, -2.1)
+    });
+    c.point_light("window", [-4.2, 2.8, 3.6], [0.50, 0.66, 1.0], 5.5, 12.0);
+
+    c.camera("front", [0.5, 2.45, 5.3], [0.0, 0.55, 0.55], 40.0);
+    c.camera("close", [-1.1, 0.95, 3.3], [0.05, 0.35, 1.0], 42.0);
+    c.camera("above", [0.2, 5.6, 3.6], [0.0, 0.2, 0.7], 42.0);
+    Ok(c.finish())
+}

@@ -1,0 +1,148 @@
+//! What every stock scene keeps to, without a GPU.
+
+// Test code: a failed expectation is the report.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::TABLE;
+use super::compose::{STRIDE, STRIDE_SECONDS};
+use crate::scene::pose::pose;
+use crate::scene::{AnimationChoice, LightKind, Pose, Property, Scene};
+
+fn scenes() -> Vec<Scene> {
+    TABLE.iter().map(|stock| (stock.build)().unwrap_or_else(|error| panic!("{}: {error}", stock.name))).collect()
+}
+
+fn posed(scene: &Scene, time: f64) -> Pose {
+    pose(scene, time, scene.default_animation, &BTreeMap::new())
+}
+
+/// The triangles of every shadow caster in world space.
+fn casting_triangles(scene: &Scene, pose: &Pose) -> Vec<[DVec3; 3]> {
+    let mut triangles = Vec::new();
+    for (index, _, mesh) in scene.instances().filter(|(_, node, _)| node.casts_shadow) {
+        let positions = pose.deformed[index].as_ref().map_or(&mesh.positions, |deformed| &deformed.positions);
+        let world = |i: u32| pose.world_from_object[index].transform_point3(positions[i as usize].as_dvec3());
+        triangles.extend(mesh.indices.chunks_exact(3).map(|t| [world(t[0]), world(t[1]), world(t[2])]));
+    }
+    triangles
+}
+
+fn blocked(triangles: &[[DVec3; 3]], from: DVec3, to: DVec3) -> bool {
+    let along = to - from;
+    triangles.iter().any(|[a, b, c]| {
+        let (u, v) = (*b - *a, *c - *a);
+        let normal = along.cross(v);
+        let volume = u.dot(normal);
+        let offset = from - *a;
+        let (s, across) = (offset.dot(normal) / volume, offset.cross(u));
+        let (t, distance) = (along.dot(across) / volume, v.dot(across) / volume);
+        s >= 0.0 && t >= 0.0 && s + t <= 1.0 && distance > 0.0 && distance < 1.0
+    })
+}
+
+#[test]
+fn names_are_unique_and_known() {
+    let names: Vec<_> = TABLE.iter().map(|stock| stock.name).collect();
+    assert_eq!(names, ["courtyard", "cubes", "teapots", "grid", "eye-in-shadow"]);
+    assert!(super::build("courtyard").is_some() && super::build("nowhere").is_none());
+}
+
+#[test]
+fn every_scene_is_complete() {
+    for scene in scenes() {
+        assert_eq!(scene.warnings, Vec::<String>::new(), "{}", scene.name);
+        assert!(scene.cameras.len() >= 2 && !scene.lights.is_empty(), "{}", scene.name);
+        assert!(!scene.animations.is_empty() && scene.default_animation == AnimationChoice::All, "{}", scene.name);
+        assert!(scene.nodes.iter().enumerate().all(|(i, node)| node.parent.is_none_or(|parent| parent < i)), "{}", scene.name);
+        for light in &scene.lights {
+            assert!(light.range.is_finite() || light.kind == LightKind::Directional, "{}: {}", scene.name, light.name);
+        }
+        let mut pictures = scene.materials.iter().filter_map(|material| material.base_color_texture);
+        assert!(pictures.all(|texture| texture < scene.textures.len()), "{}", scene.name);
+        for time in [0.0, 1.7, 60.0] {
+            let pose = posed(&scene, time);
+            for [a, b, c] in casting_triangles(&scene, &pose) {
+                let inside = |p: DVec3| p.is_finite() && p.abs().max_element() < 40.0;
+                assert!(inside(a) && inside(b) && inside(c), "{} at {time} s", scene.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn casters_are_solid_but_for_the_teapots() {
+    for scene in scenes() {
+        for (_, node, mesh) in scene.instances().filter(|(_, node, _)| node.casts_shadow) {
+            let open = node.name.ends_with("teapot");
+            assert_eq!(mesh.topology.report().is_solid(), !open, "{}: {}", scene.name, node.name);
+        }
+    }
+}
+
+#[test]
+fn movement_has_no_seam() {
+    for scene in scenes() {
+        for animation in &scene.animations {
+            for channel in &animation.channels {
+                let width = channel.values.len() / channel.times.len();
+                assert_eq!(f64::from(*channel.times.last().unwrap()) as f32, animation.duration as f32, "{}", animation.name);
+                let (first, last) = (&channel.values[..width], &channel.values[channel.values.len() - width..]);
+                let same = first.iter().zip(last).all(|(a, b)| (a - b).abs() < 1e-5);
+                assert!(same, "{}: {} ends at {last:?}, not {first:?}", scene.name, animation.name);
+                // No jumps between keys either; a half turn of a quaternion's sign is none.
+                for pair in channel.values.chunks_exact(width).collect::<Vec<_>>().windows(2) {
+                    let step = |sign: f32| pair[0].iter().zip(pair[1]).map(|(a, b)| (a - sign * b).abs()).fold(0.0, f32::max);
+                    let step = if channel.property == Property::Rotation { step(1.0).min(step(-1.0)) } else { step(1.0) };
+                    assert!(step < 0.45, "{}: {} jumps by {step}", scene.name, animation.name);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn triangles_stay_few() {
+    for (scene, most) in scenes().iter().zip([75_000, 2_500, 25_000, 8_000, 60_000]) {
+        let triangles: usize = scene.instances().map(|(_, _, mesh)| mesh.indices.len() / 3).sum();
+        assert!(triangles <= most, "{}: {triangles} triangles", scene.name);
+    }
+}
+
+#[test]
+fn the_eye_in_shadow_is_in_shadow() {
+    let scene = super::build("eye-in-shadow").unwrap().unwrap();
+    for time in [0.0, 3.0, 6.5, 9.0] {
+        let pose = posed(&scene, time);
+        let eye = pose.world_from_node[scene.cameras[0].node].translation;
+        let triangles = casting_triangles(&scene, &pose);
+        assert!(blocked(&triangles, eye, pose.lights[0].position), "at {time} s");
+        assert!(!blocked(&triangles, eye + DVec3::Y * 20.0, pose.lights[0].position + DVec3::Y * 15.0), "the ray test itself");
+    }
+}
+
+#[test]
+fn planted_feet_do_not_slide() {
+    let scene = super::build("courtyard").unwrap().unwrap();
+    // A sole vertex of the fountain's walker, near the ball of the foot: the lowest at any time
+    // must be nearly still, whichever it is.
+    let (index, _, mesh) = scene.instances().find(|(_, node, _)| node.skin.is_some()).unwrap();
+    let (mut worst, mut checked, dt) = (0.0_f64, 0, 0.02);
+    for step in 0..58 {
+        let time = 5.0 + f64::from(step) * dt;
+        let (now, soon) = (posed(&scene, time), posed(&scene, time + dt));
+        let [now, soon] = [&now, &soon].map(|pose| &pose.deformed[index].as_ref().unwrap().positions);
+        let flat = |i: usize| now[i].y < 0.012 && soon[i].y < 0.012;
+        let speeds = (0..mesh.positions.len()).filter(|&i| flat(i)).map(|i| f64::from(now[i].distance(soon[i])) / dt);
+        if let Some(slowest) = speeds.min_by(f64::total_cmp) {
+            worst = worst.max(slowest);
+            checked += 1;
+        }
+    }
+    let pace = STRIDE / STRIDE_SECONDS;
+    assert!(checked > 40, "a foot is on the ground nearly always, not {checked} times of 58");
+    assert!(worst < 0.25 * pace, "a planted foot slides at {worst:.2} m/s, walking at {pace:.2} m/s");
+}
