@@ -1,0 +1,248 @@
+//! Exact stencil integers on tiny scenes, each variant: the eye outside all volumes, inside one,
+//! inside three, with a caster across the near plane, with open and mirrored casters and every kind
+//! of light. What the integers must be is told by rays ([`common::oracle`]).
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::{Build, Stage, cube, mesh, oracle, seen_from, square};
+use glam::DVec3;
+use obscura::frame::{Method, Reason};
+use obscura::scene::{LightKind, Scene};
+use obscura::settings::{Settings, Show, Technique};
+
+const SIZE: [u32; 2] = [160, 90];
+const EXACT: [Technique; 2] = [Technique::ZFail, Technique::ExactZPass];
+
+/// A floor, and cubes of half side `half` at the places given.
+fn cubes_over_floor(places: &[(f64, f64, f64)], half: f64) -> Build {
+    let mut build = Build::new();
+    build.floor(0.0, 30.0);
+    let cube = build.mesh(cube(0));
+    for &(x, y, z) in places {
+        build.place(cube, DVec3::new(x, y, z), DVec3::splat(half));
+    }
+    build
+}
+
+/// The stencil of one light, and what it must be.
+fn measure(stage: &mut Stage, scene: &Scene, settings: &Settings, technique: Technique) -> (Vec<u8>, Vec<Option<u8>>, Vec<(Method, Reason)>) {
+    let settings = Settings { technique, show: Show::Stencil, ..settings.clone() };
+    let shot = stage.shoot(&settings, scene);
+    let expected = oracle::counts(scene, &shot.pose, &shot.plan.views[0].camera, settings.light, settings.size);
+    let methods = shot.plan.volumes.iter().map(|volume| (volume.method, volume.reason)).collect();
+    (stage.stencil(), expected, methods)
+}
+
+/// Every decided pixel holds the count that rays give; returns the largest one and the methods used.
+fn assert_exact(scene: &Scene, settings: &Settings, technique: Technique) -> (u8, Vec<(Method, Reason)>) {
+    let mut stage = Stage::new();
+    stage.set_scene(scene);
+    let (stencil, expected, methods) = measure(&mut stage, scene, settings, technique);
+    let decided = expected.iter().flatten().count();
+    assert!(decided > 1000, "only {decided} decided pixels: the view tells little");
+    let wrong: Vec<_> = (0..stencil.len()).filter(|&i| expected[i].is_some_and(|count| count != stencil[i])).collect();
+    if let Some(&first) = wrong.first() {
+        let (x, y) = (first % SIZE[0] as usize, first / SIZE[0] as usize);
+        panic!(
+            "{}: {} of {decided} decided pixels wrong, the first at {x},{y}: {} instead of {:?}; {methods:?}",
+            technique.name(),
+            wrong.len(),
+            stencil[first],
+            expected[first],
+        );
+    }
+    (expected.into_iter().flatten().max().unwrap(), methods)
+}
+
+#[test]
+fn the_eye_outside_all_volumes() {
+    let mut build = cubes_over_floor(&[(-2.0, 1.5, 0.0), (1.0, 2.0, -1.0), (1.2, 3.8, -1.0)], 0.7);
+    build.point_light(DVec3::new(1.0, 8.0, 0.5));
+    let scene = build.0;
+    let settings = seen_from(DVec3::new(4.0, 5.0, 9.0), DVec3::new(0.0, 1.0, 0.0), SIZE);
+    for technique in [Technique::ZPass, Technique::ZFail, Technique::ExactZPass] {
+        let (largest, methods) = assert_exact(&scene, &settings, technique);
+        assert_eq!(largest, 2, "one cube's shadow falls into another's");
+        let expected = match technique {
+            Technique::ZPass => (Method::ZPass, Reason::Technique),
+            Technique::ZFail => (Method::ZFail, Reason::SurfaceCovers),
+            _ => (Method::ExactZPass, Reason::SurfaceCovers),
+        };
+        assert!(methods.iter().all(|&method| method == expected), "{methods:?}");
+    }
+}
+
+/// A cube between the light and the eye; three of them, one above the other.
+fn eye_in_shadow(volumes: u8) -> (Scene, Settings) {
+    let places: Vec<_> = (0..volumes).map(|i| (0.0, 6.0 + 2.5 * f64::from(i), 0.0)).collect();
+    let mut build = cubes_over_floor(&places, 1.0);
+    build.point_light(DVec3::new(0.1, 16.0, 0.2));
+    let eye = DVec3::new(0.3, 1.0, 0.2);
+    let scene = build.0;
+    let settings = seen_from(eye, DVec3::new(5.0, 0.0, -3.0), SIZE);
+    (scene, settings)
+}
+
+#[test]
+fn the_eye_inside_one_volume() {
+    let (scene, settings) = eye_in_shadow(1);
+    for technique in EXACT {
+        assert_eq!(assert_exact(&scene, &settings, technique).0, 1);
+    }
+}
+
+#[test]
+fn the_eye_inside_three_volumes() {
+    let (scene, settings) = eye_in_shadow(3);
+    for technique in EXACT {
+        assert_eq!(assert_exact(&scene, &settings, technique).0, 3);
+    }
+}
+
+#[test]
+fn z_pass_misses_exactly_the_volumes_that_hold_the_eye() {
+    for volumes in [1u8, 3] {
+        let (scene, settings) = eye_in_shadow(volumes);
+        let mut stage = Stage::new();
+        stage.set_scene(&scene);
+        let (stencil, expected, _) = measure(&mut stage, &scene, &settings, Technique::ZPass);
+        let decided = stencil.iter().zip(&expected).filter_map(|(&found, expected)| expected.map(|count| (found, count)));
+        for (found, count) in decided {
+            assert_eq!(found, count.wrapping_sub(volumes));
+        }
+    }
+}
+
+#[test]
+fn a_caster_across_the_near_plane() {
+    // The eye stands a hand's breadth before a cube's face and looks along it.
+    let mut build = cubes_over_floor(&[(0.0, 1.5, 0.0), (3.0, 2.0, -4.0)], 1.0);
+    build.point_light(DVec3::new(-2.0, 7.0, 3.0));
+    let scene = build.0;
+    let settings = seen_from(DVec3::new(1.04, 1.6, 0.5), DVec3::new(1.5, 1.2, -3.0), SIZE);
+    for technique in EXACT {
+        let (_, methods) = assert_exact(&scene, &settings, technique);
+        assert_eq!(methods[0], (Method::ZFailCompared, Reason::AcrossNearPlane));
+        assert_ne!(methods[1].1, Reason::AcrossNearPlane);
+    }
+}
+
+#[test]
+fn the_eye_inside_a_caster() {
+    let mut build = cubes_over_floor(&[(0.0, 2.0, 0.0), (4.0, 2.0, -4.0)], 1.0);
+    build.point_light(DVec3::new(-2.0, 9.0, 3.0));
+    let scene = build.0;
+    let settings = seen_from(DVec3::new(0.2, 2.1, 0.1), DVec3::new(3.0, 0.5, -3.0), SIZE);
+    for technique in EXACT {
+        let (_, methods) = assert_exact(&scene, &settings, technique);
+        assert_eq!(methods[0], (Method::ZFailCompared, Reason::AcrossNearPlane));
+    }
+}
+
+/// A sheet, a box without lid, and a fan of three triangles on one edge.
+fn open_casters(material: usize) -> Build {
+    let mut build = Build::new();
+    build.floor(0.0, 30.0);
+    let sheet = build.mesh(square(material));
+    build.place(sheet, DVec3::new(-3.0, 2.5, 0.0), DVec3::ONE);
+    let corners = [
+        [-1.0, 0.0, -1.0],
+        [1.0, 0.0, -1.0],
+        [1.0, 0.0, 1.0],
+        [-1.0, 0.0, 1.0],
+        [-1.0, 1.5, -1.0],
+        [1.0, 1.5, -1.0],
+        [1.0, 1.5, 1.0],
+        [-1.0, 1.5, 1.0],
+    ];
+    let sides: Vec<[u32; 3]> =
+        (0..4u32).flat_map(|i| [[i, (i + 1) % 4 + 4, (i + 1) % 4], [i, i + 4, (i + 1) % 4 + 4]]).collect();
+    let open_box = build.mesh(mesh("open box", &corners, &sides, material));
+    build.place(open_box, DVec3::new(0.5, 1.0, 0.0), DVec3::ONE);
+    let fan = [[0.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.5, 1.0, 0.2], [-0.6, 1.2, 1.1], [-0.7, 0.8, -1.2]];
+    let fan = build.mesh(mesh("fan", &fan, &[[0, 1, 2], [0, 1, 3], [1, 0, 4]], material));
+    build.place(fan, DVec3::new(3.5, 1.0, 0.5), DVec3::ONE);
+    build
+}
+
+#[test]
+fn open_and_non_manifold_casters_cast_from_every_triangle() {
+    for light in [DVec3::new(0.5, 9.0, 1.0), DVec3::new(6.0, 1.9, 4.0), DVec3::new(-1.0, 0.6, 3.0)] {
+        let mut build = open_casters(1);
+        build.point_light(light);
+        let scene = build.0;
+        let settings = seen_from(DVec3::new(2.0, 6.0, 9.0), DVec3::new(0.0, 1.0, 0.0), SIZE);
+        for technique in EXACT {
+            let (largest, _) = assert_exact(&scene, &settings, technique);
+            assert!(largest >= 1);
+        }
+    }
+}
+
+#[test]
+fn an_open_caster_culled_from_behind_goes_by_compared_z_fail() {
+    let mut build = open_casters(0);
+    build.point_light(DVec3::new(0.5, 9.0, 1.0));
+    let scene = build.0;
+    let settings = seen_from(DVec3::new(2.0, 6.0, 9.0), DVec3::new(0.0, 1.0, 0.0), SIZE);
+    for technique in EXACT {
+        let (_, methods) = assert_exact(&scene, &settings, technique);
+        assert!(methods.iter().all(|&method| method == (Method::ZFailCompared, Reason::SurfaceMayBeMissing)), "{methods:?}");
+    }
+}
+
+#[test]
+fn mirrored_casters_count_like_others() {
+    let mut build = cubes_over_floor(&[], 1.0);
+    let wedge_corners =
+        [[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [1.0, 0.0, 1.0], [-1.0, 0.0, 1.0], [-1.0, 1.5, -1.0], [-1.0, 1.5, 1.0]];
+    let wedge = [[0, 1, 2], [0, 2, 3], [0, 4, 1], [2, 5, 3], [1, 4, 5], [1, 5, 2], [0, 3, 5], [0, 5, 4]];
+    let wedge = build.mesh(mesh("wedge", &wedge_corners, &wedge, 0));
+    assert!(build.0.meshes[wedge].topology.report().is_solid(), "the test's wedge is a solid");
+    build.place(wedge, DVec3::new(-2.0, 1.0, 0.0), DVec3::ONE);
+    build.place(wedge, DVec3::new(2.0, 1.0, 0.0), DVec3::new(-1.0, 1.0, 1.0));
+    build.place(wedge, DVec3::new(0.0, 3.5, -1.0), DVec3::new(-1.0, -0.7, -1.3));
+    build.point_light(DVec3::new(0.7, 8.0, 2.0));
+    let scene = build.0;
+    let settings = seen_from(DVec3::new(1.0, 5.0, 9.0), DVec3::new(0.0, 1.0, 0.0), SIZE);
+    for technique in [Technique::ZPass, Technique::ZFail, Technique::ExactZPass] {
+        assert_exact(&scene, &settings, technique);
+    }
+}
+
+#[test]
+fn directional_and_spot_lights() {
+    for kind in [LightKind::Directional, LightKind::Spot { inner: 0.3, outer: 0.6 }] {
+        let mut build = cubes_over_floor(&[(-2.0, 1.5, 0.0), (1.0, 2.0, -1.0), (1.4, 4.2, -1.3)], 0.7);
+        build.light(kind, DVec3::new(3.0, 9.0, 2.0), DVec3::new(-0.3, -1.0, -0.2), 100.0);
+        let scene = build.0;
+        let outside = seen_from(DVec3::new(4.0, 5.0, 9.0), DVec3::new(0.0, 1.0, 0.0), SIZE);
+        let inside = seen_from(DVec3::new(1.0 - 0.12, 0.5, -1.0 - 0.1), DVec3::new(-3.0, 0.4, 1.0), SIZE);
+        for technique in EXACT {
+            assert_exact(&scene, &outside, technique);
+            assert_exact(&scene, &inside, technique);
+        }
+    }
+}
+
+#[test]
+fn an_eye_on_a_volumes_boundary_goes_by_z_fail() {
+    // Light and eye lie in the plane of the cube's face x = 1: the side of its volume holds the eye.
+    let mut build = cubes_over_floor(&[(0.0, 3.0, 0.0)], 1.0);
+    build.point_light(DVec3::new(1.0, 9.0, 0.0));
+    let scene = build.0;
+    let settings = seen_from(DVec3::new(1.0, 0.8, 0.0), DVec3::new(0.2, 0.5, 4.0), SIZE);
+    let (_, methods) = assert_exact(&scene, &settings, Technique::ExactZPass);
+    assert_eq!(methods[0], (Method::ZFail, Reason::EyeOnBoundary));
+}
+
+#[test]
+fn without_depth_clamp_exact_z_pass_is_z_fail_and_says_so() {
+    let (scene, settings) = eye_in_shadow(1);
+    let settings = Settings { technique: Technique::ExactZPass, ..settings };
+    let capabilities = obscura::frame::Capabilities { depth_clip_control: false, ..obscura::frame::Capabilities::complete() };
+    let (_, plan) = obscura::director::stage(&settings, &scene, &capabilities).unwrap();
+    assert!(plan.volumes.iter().all(|volume| volume.method == Method::ZFail && volume.reason == Reason::NoDepthClamp));
+    assert!(plan.notes.iter().any(|note| note.contains("depth clamp")), "{:?}", plan.notes);
+}
