@@ -26,7 +26,12 @@ fn cubes_over_floor(places: &[(f64, f64, f64)], half: f64) -> Build {
 }
 
 /// The stencil of one light, and what it must be.
-fn measure(stage: &mut Stage, scene: &Scene, settings: &Settings, technique: Technique) -> (Vec<u8>, Vec<Option<u8>>, Vec<(Method, Reason)>) {
+fn measure(
+    stage: &mut Stage,
+    scene: &Scene,
+    settings: &Settings,
+    technique: Technique,
+) -> (Vec<u8>, Vec<Option<u8>>, Vec<(Method, Reason)>) {
     let settings = Settings { technique, show: Show::Stencil, ..settings.clone() };
     let shot = stage.shoot(&settings, scene);
     let expected = oracle::counts(scene, &shot.pose, &shot.plan.views[0].camera, settings.light, settings.size);
@@ -156,8 +161,7 @@ fn open_casters(material: usize) -> Build {
         [1.0, 1.5, 1.0],
         [-1.0, 1.5, 1.0],
     ];
-    let sides: Vec<[u32; 3]> =
-        (0..4u32).flat_map(|i| [[i, (i + 1) % 4 + 4, (i + 1) % 4], [i, i + 4, (i + 1) % 4 + 4]]).collect();
+    let sides: Vec<[u32; 3]> = (0..4u32).flat_map(|i| [[i, (i + 1) % 4 + 4, (i + 1) % 4], [i, i + 4, (i + 1) % 4 + 4]]).collect();
     let open_box = build.mesh(mesh("open box", &corners, &sides, material));
     build.place(open_box, DVec3::new(0.5, 1.0, 0.0), DVec3::ONE);
     let fan = [[0.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.5, 1.0, 0.2], [-0.6, 1.2, 1.1], [-0.7, 0.8, -1.2]];

@@ -9,6 +9,7 @@ pub mod plan;
 pub mod state;
 pub mod stencil;
 pub mod step;
+mod text;
 pub mod validate;
 
 pub use camera::{Camera, CameraError};

@@ -54,6 +54,8 @@ pub struct VolumePlan {
     pub reason: Reason,
     /// How many of this caster's volumes hold the eye, where the method needs to know.
     pub holds_eye: i32,
+    /// Whether some of its triangles may have to be turned to face the light: an open caster's.
+    pub turns: bool,
     /// The front's winding on screen.
     pub winding: Winding,
 }

@@ -118,7 +118,16 @@ pub fn count_light(
         let decided = if caster.in_range() { (row.decide)(caster) } else { Some((Method::Dropped, Reason::OutOfRange)) };
         let Some((method, reason)) = decided else { continue };
         let holds_eye = if method == Method::ExactZPass { caster.holds_eye().unwrap_or(0) } else { 0 };
-        volumes.push(VolumePlan { instance: caster.instance, light, method, reason, holds_eye, winding: caster.winding() });
+        let turns = !caster.mesh.topology.report().is_solid();
+        volumes.push(VolumePlan {
+            instance: caster.instance,
+            light,
+            method,
+            reason,
+            holds_eye,
+            turns,
+            winding: caster.winding(),
+        });
     }
     let base = volumes[first..].iter().map(|volume| volume.holds_eye).fold(0u8, |sum, count| {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the count is modulo the field")]
@@ -133,7 +142,9 @@ pub fn count_light(
                 .enumerate()
                 .skip(first)
                 .filter(|(_, volume)| volume.method == group.method && volume.winding == winding)
-                .flat_map(|(index, _)| group.parts.iter().map(move |&part| VolumePart { volume: index, part }))
+                .flat_map(|(index, volume)| group.parts.iter().map(move |&part| (volume, VolumePart { volume: index, part })))
+                .filter(|(volume, part)| volume.turns || part.part != Part::LightCapTurned)
+                .map(|(_, part)| part)
                 .collect();
             if !parts.is_empty() {
                 steps.push(group.step(light, winding, scissor, budget, parts));

@@ -85,9 +85,8 @@ fn meet(triangle: &Triangle, origin: DVec3, direction: DVec3) -> Option<(f64, bo
 fn count_at(triangles: &[Triangle], pose: &Pose, camera: &Camera, light: usize, (x, y): (f64, f64)) -> Option<(usize, u8)> {
     let half_height = (camera.vertical_fov / 2.0).tan();
     let right = camera.forward.cross(camera.up);
-    let direction = camera.forward
-        + right * ((2.0 * x - 1.0) * half_height * camera.aspect)
-        + camera.up * ((1.0 - 2.0 * y) * half_height);
+    let direction =
+        camera.forward + right * ((2.0 * x - 1.0) * half_height * camera.aspect) + camera.up * ((1.0 - 2.0 * y) * half_height);
     let mut nearest: Option<(f64, usize)> = None;
     for triangle in triangles {
         if let Some((distance, front)) = meet(triangle, camera.eye, direction)

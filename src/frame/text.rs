@@ -1,0 +1,92 @@
+//! A plan as text that a person can read and a test can compare.
+
+use std::collections::BTreeMap;
+use std::fmt::{Display, Formatter, Result};
+
+use super::plan::FramePlan;
+use super::step::{Action, Draw, DrawSet, Part};
+
+impl Display for FramePlan {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let [width, height] = self.size;
+        writeln!(f, "{width} x {height}, {} sample{}", self.samples, if self.samples == 1 { "" } else { "s" })?;
+        writeln!(f, "stencil: count {:08b}", self.budget.count_mask)?;
+        for view in &self.views {
+            writeln!(f, "view {}: front {:?}", view.name, view.winding)?;
+        }
+        for volume in &self.volumes {
+            write!(
+                f,
+                "volume of instance {}, light {}: {:?}, for {}",
+                volume.instance,
+                volume.light,
+                volume.method,
+                volume.reason.words()
+            )?;
+            if volume.holds_eye != 0 {
+                write!(f, "; {} hold the eye", volume.holds_eye)?;
+            }
+            writeln!(f)?;
+        }
+        for (number, step) in self.steps.iter().enumerate() {
+            writeln!(f, "{number:2} {}", step.label)?;
+            match &step.action {
+                Action::Clear(clear) => {
+                    let mut parts = Vec::new();
+                    if let Some([r, g, b, _]) = clear.color {
+                        parts.push(format!("colour {r:.3} {g:.3} {b:.3}"));
+                    }
+                    if let Some(depth) = clear.depth {
+                        parts.push(format!("depth {depth}"));
+                    }
+                    if let Some(stencil) = clear.stencil {
+                        parts.push(format!("stencil {stencil}"));
+                    }
+                    writeln!(f, "     clear {}", parts.join(", "))?;
+                }
+                Action::Draw(draw) => describe(f, draw)?,
+            }
+        }
+        for note in &self.notes {
+            writeln!(f, "note: {note}")?;
+        }
+        Ok(())
+    }
+}
+
+fn describe(f: &mut Formatter<'_>, draw: &Draw) -> Result {
+    let state = &draw.state;
+    let depth = format!("{:?}{}", state.depth.compare, if state.depth.write { ", written" } else { "" });
+    let color = state.color.map_or("none".into(), |blend| format!("{blend:?}"));
+    writeln!(f, "     {:?} to {:?}: {}", draw.program, draw.target, contents(&draw.set))?;
+    writeln!(
+        f,
+        "     depth {depth}; colour {color}; cull {:?}; front {:?}; near plane {:?}; scissor {:?}",
+        state.cull, state.winding, state.near_plane, draw.scissor
+    )?;
+    writeln!(f, "     stencil {}, reference {}", state.stencil.words(), draw.stencil_reference)
+}
+
+fn contents(set: &DrawSet) -> String {
+    match set {
+        DrawSet::FullScreen => "full screen".into(),
+        DrawSet::Surfaces(surfaces) => {
+            let list: Vec<_> = surfaces.iter().map(|surface| format!("{}.{}", surface.instance, surface.primitive)).collect();
+            format!("surfaces {}", list.join(" "))
+        }
+        DrawSet::Volumes(parts) => {
+            let mut by_volume: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
+            for part in parts {
+                by_volume.entry(part.volume).or_default().push(match part.part {
+                    Part::Sides => "sides",
+                    Part::LightCapKept => "light cap",
+                    Part::LightCapTurned => "turned light cap",
+                    Part::DarkCap => "dark cap",
+                });
+            }
+            let list: Vec<_> = by_volume.iter().map(|(volume, parts)| format!("{volume} ({})", parts.join(", "))).collect();
+            format!("volumes {}", list.join(" "))
+        }
+        DrawSet::Edges(instances) => format!("edges of {} instances", instances.len()),
+    }
+}
