@@ -14,6 +14,7 @@ use serde::Serialize;
 use tracing_subscriber::EnvFilter;
 
 fn main() -> ExitCode {
+    quiet_device_search();
     // Quiet unless asked: RUST_LOG=obscura=info, for example.
     let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("off"));
     tracing_subscriber::fmt().with_env_filter(filter).with_writer(io::stderr).init();
@@ -64,6 +65,22 @@ fn window(request: &WindowRequest) -> Result<(), Failure> {
     } else {
         Err(Failure("there is no display for a window; `obscura render SCENE --out FILE.png` draws without one".into()))
     }
+}
+
+/// Mesa's device selection layer asks Wayland for the preferred GPU, and libwayland complains on
+/// stderr where there is no `XDG_RUNTIME_DIR`. Without a display there is nothing to ask: the layer is
+/// told to stand aside, so that one error stays one line.
+#[allow(unsafe_code)] // the process has one thread here
+fn quiet_device_search() {
+    if !has_display() && std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        // SAFETY: nothing else reads or writes the environment before main goes on.
+        unsafe { std::env::set_var("NODEVICE_SELECT", "1") };
+    }
+}
+
+fn has_display() -> bool {
+    let named = |variable| std::env::var_os(variable).is_some_and(|value| !value.is_empty());
+    cfg!(any(windows, target_os = "macos")) || named("DISPLAY") || named("WAYLAND_DISPLAY") || named("WAYLAND_SOCKET")
 }
 
 fn take_tour(out: &Path) -> Result<(), Failure> {
