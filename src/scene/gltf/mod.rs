@@ -107,7 +107,7 @@ fn import(name: &str, bytes: &[u8], folder: &Folder) -> Result<Scene, Problem> {
     if scene.instances().next().is_none() {
         return Err(Problem::Nothing("the scene's nodes show no triangles".into()));
     }
-    check_instances(&mut scene, &hierarchy, &store, &mut warnings)?;
+    check_instances(&mut scene, &root, &hierarchy, &store, &mut warnings)?;
     scene.textures = images.textures;
     scene.animations = animation::import(&root, &store, &hierarchy, &scene.nodes, &scene.meshes, &mut warnings)?;
     scene.default_animation = if scene.animations.is_empty() { AnimationChoice::All } else { AnimationChoice::One(0) };
@@ -148,6 +148,7 @@ fn import_meshes(
 /// every instance that is bent on the CPU.
 fn check_instances(
     scene: &mut Scene,
+    root: &Root,
     hierarchy: &nodes::Hierarchy,
     store: &accessor::Store<'_>,
     warnings: &mut Warnings,
@@ -156,8 +157,8 @@ fn check_instances(
     for (index, node) in scene.nodes.iter_mut().enumerate() {
         let Some(mesh_index) = node.mesh else { continue };
         let mesh = &scene.meshes[mesh_index];
-        let name = node.name.clone();
-        let named = || part("node", hierarchy.order[index], Some(&name));
+        let in_file = hierarchy.order[index];
+        let named = || part("node", in_file, root.nodes[in_file].name.as_deref());
         if let Some(skin) = node.skin {
             let joints = scene.skins[skin].joints.len();
             match joints_needed.get(&mesh_index) {
@@ -166,8 +167,7 @@ fn check_instances(
                     node.skin = None;
                 }
                 Some(needed) if *needed > joints => {
-                    let what =
-                        format!("mesh {:?} needs joint {}, but the skin has {joints}", error::clip(&mesh.name), needed - 1);
+                    let what = format!("mesh {:?} needs joint {}, but the skin has {joints}", mesh.name, needed - 1);
                     return Err(Problem::Part { part: named(), what });
                 }
                 Some(_) => {}

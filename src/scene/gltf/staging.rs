@@ -63,11 +63,15 @@ fn pose_at(scene: &Scene, time: f64) -> Pose {
 
 /// The box around everything shown, world space; an error where something is nowhere.
 fn bounds(scene: &Scene, pose: &Pose) -> Result<Aabb, Problem> {
-    for (index, node, _) in scene.instances() {
-        let placed = pose.world_bounds(scene, index);
-        let near = |corner: Vec3| corner.is_finite() && f64::from(corner.abs().max_element()) <= FARTHEST;
-        let bent = pose.deformed[index].as_ref().is_none_or(|bent| bent.positions.iter().all(|position| position.is_finite()));
-        if !bent || !pose.world_from_object[index].is_finite() || !near(placed.min) || !near(placed.max) {
+    for (index, node, mesh) in scene.instances() {
+        let near = |bounds: Aabb| {
+            let farthest = bounds.min.abs().max(bounds.max.abs());
+            farthest.is_finite() && f64::from(farthest.max_element()) <= FARTHEST
+        };
+        // The pose puts what has no finite place at the origin, so the node itself is asked too; a
+        // skinned mesh is placed by its joints alone.
+        let placed = node.skin.is_some() || near(mesh.bounds.transformed(&pose.world_from_node[index]));
+        if !placed || !near(pose.world_bounds(scene, index)) {
             let what = format!("what it shows lies farther than {FARTHEST:e} m from the origin");
             return Err(Problem::Part { part: format!("node {:?}", clip(&node.name)), what });
         }
