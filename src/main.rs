@@ -60,7 +60,10 @@ fn run(command: Command) -> Result<(), Failure> {
 
 /// The window where there is a display; else the tour, if nothing in particular was asked for.
 fn window(request: &WindowRequest) -> Result<(), Failure> {
-    if request.bare {
+    if has_display() {
+        let (settings, options) = obscura::app::start(request)?;
+        Ok(obscura::app::run(settings, options)?)
+    } else if request.bare {
         take_tour(Path::new("out"))
     } else {
         Err(Failure("there is no display for a window; `obscura render SCENE --out FILE.png` draws without one".into()))

@@ -101,6 +101,7 @@ impl Bench {
             notices: &self.notices,
             capabilities: Some(&self.capabilities),
             history: &self.history,
+            picture: None,
         };
         let desk = Desk { settings: &mut self.settings, preferences: &mut self.preferences };
         let outcome = self.panel.show(ui, desk, &view);
@@ -413,7 +414,7 @@ fn time_is_played_paused_and_stepped() {
 fn the_frame_is_told_in_numbers() {
     let mut bench = Bench::new();
     bench.history.push(FrameNumbers {
-        interval_ms: 16.7,
+        interval_ms: Some(16.7),
         cpu_ms: 1.25,
         gpu_ms: Some(7.5),
         draws: 321,

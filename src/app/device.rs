@@ -220,8 +220,8 @@ impl Screen {
     }
 
     /// Lets go of textures that the panel needs no more; after their last frame is submitted.
-    pub fn free_textures(&mut self, textures: &mut egui::TexturesDelta) {
-        for id in textures.free.drain() {
+    pub fn free_textures(&mut self, textures: impl IntoIterator<Item = egui::TextureId>) {
+        for id in textures {
             self.panel.free_texture(&id);
         }
     }

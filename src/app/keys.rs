@@ -47,6 +47,8 @@ pub enum Command {
     OpenPath,
     /// Reads the scene's file again.
     Reload,
+    /// Throws the graphics device away.
+    LoseDevice,
     /// The whole screen, or a window.
     ToggleFullscreen,
     /// Ends the program.
@@ -161,6 +163,7 @@ pub static TABLE: &[Row] = &[
     row(Group::Window, "F1 H", "this help", &[press(Key::F1, Command::ToggleHelp), press(Key::H, Command::ToggleHelp)]),
     row(Group::Window, "F2", "show or hide the panel", &[press(Key::F2, Command::TogglePanel)]),
     row(Group::Window, "F5", "read the scene again", &[press(Key::F5, Command::Reload)]),
+    row(Group::Window, "F9", "lose the graphics device, to see everything rebuilt", &[press(Key::F9, Command::LoseDevice)]),
     row(Group::Window, "F11", "full screen", &[press(Key::F11, Command::ToggleFullscreen)]),
     row(
         Group::Window,

@@ -80,6 +80,7 @@ fn one(command: Command, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_>
             panel.focus_path = true;
         }
         Command::Reload => actions.push(Action::Reload),
+        Command::LoseDevice => actions.push(Action::LoseDevice),
         Command::ToggleFullscreen => actions.push(Action::ToggleFullscreen),
         Command::Quit => actions.push(Action::Quit),
     }

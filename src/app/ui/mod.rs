@@ -59,6 +59,8 @@ pub struct View<'a> {
     pub capabilities: Option<&'a Capabilities>,
     /// The last frames.
     pub history: &'a History,
+    /// The picture, where the panel has to draw it; else it is copied beneath.
+    pub picture: Option<egui::TextureId>,
 }
 
 /// Something that the user should know.
@@ -115,6 +117,8 @@ pub enum Action {
     CopyCommand,
     /// Takes a notice away.
     Dismiss(Topic),
+    /// Throws the device away, which then is rebuilt.
+    LoseDevice,
     /// The whole screen, or a window.
     ToggleFullscreen,
     /// Ends the program.
@@ -213,7 +217,7 @@ impl Panel {
 
     /// What stays on the picture while the panel is hidden.
     fn floating(&self, ui: &Ui, desk: &Desk<'_>, view: &View<'_>, picture: Rect, actions: &mut Vec<Action>) {
-        let frame = view.history.median(|frame| Some(frame.interval_ms)).unwrap_or(0.0);
+        let frame = view.history.median(|frame| frame.interval_ms).unwrap_or(0.0);
         let words = format!("{} | {} | {frame:.1} ms | F1 help", desk.settings.technique.name(), desk.settings.show.name());
         numbers::caption(ui, picture, &words);
         if !view.notices.is_empty() {

@@ -13,8 +13,8 @@ pub const REMEMBERED: usize = 150;
 /// One drawn frame in numbers.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FrameNumbers {
-    /// From the start of the frame before to the start of this one, milliseconds.
-    pub interval_ms: f64,
+    /// From the start of the frame before to the start of this one, milliseconds; none after a pause.
+    pub interval_ms: Option<f64>,
     /// Posing, planning and recording, milliseconds.
     pub cpu_ms: f64,
     /// Measured on the GPU, milliseconds, where it can.
@@ -79,7 +79,7 @@ pub fn numbers(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
         cell(ui, "GPU", median(|frame| frame.gpu_ms), style::GOOD, "Measured by timestamps on the device; median");
         cell(ui, "Triangles", thousands(latest.triangles), style::WEAK, "Triangles of all draws");
         ui.end_row();
-        cell(ui, "Frame", median(|frame| Some(frame.interval_ms)), style::TEXT, "From one frame to the next; median");
+        cell(ui, "Frame", median(|frame| frame.interval_ms), style::TEXT, "From one frame to the next; median");
         cell(ui, "Volumes", thousands(u64::from(latest.volumes)), style::WEAK, "Shadow volumes counted");
         ui.end_row();
         ui.label("");

@@ -16,6 +16,10 @@ pub fn picture(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
     let rect = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     super::style::name_it(&response, "Picture");
+    if let Some(texture) = view.picture {
+        let whole = Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
+        ui.painter().image(texture, rect, whole, egui::Color32::WHITE);
+    }
     let scale = ui.ctx().pixels_per_point();
     desk.settings.size = [rect.width(), rect.height()].map(|side| (side * scale).round().max(1.0) as u32);
     if response.clicked() || response.drag_started() {

@@ -1,0 +1,302 @@
+//! What is shown, without the window: settings, scene, notices, and the last frame's plan.
+
+use std::time::Instant;
+
+use super::ui::{self, Action, History, Notice, Panel, Tone, Topic, View};
+use super::{WindowOptions, photo, store};
+use crate::cli::render_command;
+use crate::frame::{Capabilities, FramePlan};
+use crate::scene::open::{Loading, load_on_thread};
+use crate::scene::{Pose, Scene, doctor, stock};
+use crate::settings::{SceneChoice, Settings};
+use store::{Preferences, Store};
+
+/// The scene that is drawn.
+pub(super) struct Loaded {
+    pub scene: Scene,
+    doctor: String,
+    floor: bool,
+}
+
+/// A scene on its way.
+struct Opening {
+    loading: Loading,
+    name: String,
+    floor: bool,
+    /// It is the scene that is there already, or the one that the settings were made for: camera
+    /// and lights stay.
+    keep: bool,
+}
+
+/// The last picture.
+pub(super) struct Drawn {
+    pub pose: Pose,
+    pub plan: FramePlan,
+}
+
+/// Everything that outlives a window and a device.
+pub(super) struct Session {
+    pub settings: Settings,
+    pub preferences: Preferences,
+    pub store: Store,
+    pub panel: Panel,
+    pub history: History,
+    pub loaded: Option<Loaded>,
+    pub drawn: Option<Drawn>,
+    /// What the last picture was drawn from, or tried to be.
+    pub drawn_from: Option<Settings>,
+    notices: Vec<Notice>,
+    opening: Option<Opening>,
+}
+
+impl Session {
+    pub fn new(settings: Settings, options: &WindowOptions, mut store: Store) -> Self {
+        let (stored, note) = store.load();
+        let mut preferences = stored.preferences;
+        if let Some(vsync) = options.vsync {
+            preferences.vsync = vsync;
+        }
+        let mut session = Self {
+            settings,
+            preferences,
+            store,
+            panel: Panel::default(),
+            history: History::default(),
+            loaded: None,
+            drawn: None,
+            drawn_from: None,
+            notices: Vec::new(),
+            opening: None,
+        };
+        if let Some(note) = note {
+            session.notice(Topic::Store, Tone::Warning, note);
+        }
+        session
+    }
+
+    /// Says something; a newer word on the same topic replaces the older.
+    pub fn notice(&mut self, topic: Topic, tone: Tone, words: impl Into<String>) {
+        let words = words.into();
+        match tone {
+            Tone::Good => tracing::info!("{words}"),
+            Tone::Warning => tracing::warn!("{words}"),
+            Tone::Error => tracing::error!("{words}"),
+        }
+        self.dismiss(topic);
+        self.notices.push(Notice { topic, tone, words });
+    }
+
+    pub fn dismiss(&mut self, topic: Topic) {
+        self.notices.retain(|notice| notice.topic != topic);
+    }
+
+    /// What the panel shows; settings, preferences and panel itself stay free to be changed.
+    pub fn parts<'a>(
+        &'a mut self,
+        capabilities: Option<&'a Capabilities>,
+        picture: Option<egui::TextureId>,
+    ) -> (&'a mut Panel, ui::Desk<'a>, View<'a>) {
+        let view = View {
+            stock: stock::TABLE,
+            scene: self.loaded.as_ref().map(|loaded| &loaded.scene),
+            pose: self.drawn.as_ref().map(|drawn| &drawn.pose),
+            plan: self.drawn.as_ref().map(|drawn| &drawn.plan),
+            doctor: self.loaded.as_ref().map_or("", |loaded| &loaded.doctor),
+            opening: self.opening.as_ref().map(|opening| opening.name.as_str()),
+            notices: &self.notices,
+            capabilities,
+            history: &self.history,
+            picture,
+        };
+        (&mut self.panel, ui::Desk { settings: &mut self.settings, preferences: &mut self.preferences }, view)
+    }
+
+    /// The title of the window; no NUL in it, which winit does not forgive.
+    pub fn title(&self) -> String {
+        let scene = match &self.settings.scene {
+            SceneChoice::Stock(name) => name.clone(),
+            SceneChoice::File(path) => path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+        };
+        let title = format!("Obscura \u{2014} {scene} \u{2014} {}", self.settings.technique.name());
+        title.chars().map(|letter| if letter.is_control() { '\u{fffd}' } else { letter }).collect()
+    }
+
+    /// Starts opening a scene; one that was on its way is forgotten.
+    pub fn open(&mut self, choice: SceneChoice, keep: bool, wake: impl FnOnce() + Send + 'static) {
+        let name = match &choice {
+            SceneChoice::Stock(name) => name.clone(),
+            SceneChoice::File(path) => path.display().to_string(),
+        };
+        let floor = self.settings.floor;
+        self.opening = Some(Opening { loading: load_on_thread(choice, floor, wake), name, floor, keep });
+    }
+
+    /// Whether the floor was switched since the scene was opened.
+    pub fn wants_other_floor(&self) -> bool {
+        self.opening.is_none() && self.loaded.as_ref().is_some_and(|loaded| loaded.floor != self.settings.floor)
+    }
+
+    /// Takes the scene that was opened, if it is there: `upload` brings it to the device. True where
+    /// nothing could be opened and nothing is there, so that another scene is needed.
+    pub fn take_opened(&mut self, upload: impl FnOnce(&Scene) -> Result<(), String>) -> bool {
+        let Some(result) = self.opening.as_mut().and_then(|opening| opening.loading.poll()) else { return false };
+        let Some(opening) = self.opening.take() else { return false };
+        let result = result.map_err(|error| error.to_string()).and_then(|scene| {
+            let uploaded = upload(&scene).map_err(|error| format!("{}: {error}", opening.name));
+            uploaded.map(|()| scene)
+        });
+        let choice = opening.loading.choice;
+        match result {
+            Ok(scene) => {
+                if !opening.keep {
+                    store::turn_to(&mut self.settings, choice.clone());
+                }
+                if let SceneChoice::File(path) = &choice {
+                    self.preferences.opened(path);
+                }
+                tracing::info!("opened {}", opening.name);
+                self.loaded = Some(Loaded { doctor: doctor::report(&scene).to_string(), scene, floor: opening.floor });
+                self.drawn = None;
+                self.drawn_from = None;
+                self.dismiss(Topic::Scene);
+                self.dismiss(Topic::Frame);
+                false
+            }
+            Err(words) => {
+                if self.loaded.is_none() {
+                    // Nobody may be looking at the panel yet.
+                    eprintln!("obscura: {words}");
+                }
+                self.notice(Topic::Scene, Tone::Error, format!("Cannot open this: {words}"));
+                if let Some(loaded) = &self.loaded {
+                    self.settings.floor = loaded.floor;
+                }
+                self.loaded.is_none() && choice != SceneChoice::default()
+            }
+        }
+    }
+
+    /// Moves the scene's time on.
+    pub fn advance(&mut self, elapsed: f64) {
+        if self.moves() {
+            self.settings.time = self.preferences.clock.advance(self.settings.time, elapsed);
+        }
+    }
+
+    /// Whether the picture will look different in a moment.
+    pub fn moves(&self) -> bool {
+        let moving = |loaded: &Loaded| ui::moves(&loaded.scene, self.settings.animation);
+        self.preferences.clock.playing && self.loaded.as_ref().is_some_and(moving)
+    }
+
+    /// Whether the picture has to be drawn again.
+    pub fn is_stale(&self) -> bool {
+        self.loaded.is_some() && self.drawn_from.as_ref() != Some(&self.settings)
+    }
+
+    /// The command that draws this picture without a window.
+    pub fn command(&self) -> String {
+        render_command(&self.settings)
+    }
+
+    /// Saves a picture and says where, or why not.
+    pub fn save(&mut self, image: &image::RgbaImage) {
+        match photo::save(image, &self.settings, &self.command()) {
+            Ok(path) => self.notice(Topic::Picture, Tone::Good, format!("Saved {}", path.display())),
+            Err(error) => self.notice(Topic::Picture, Tone::Error, format!("The picture is not saved: {error}")),
+        }
+    }
+
+    /// Writes settings that changed a while ago.
+    pub fn keep(&mut self, now: Instant) {
+        if let Err(words) = self.store.write_if_due(&self.settings, &self.preferences, now) {
+            self.notice(Topic::Store, Tone::Warning, words);
+        }
+    }
+
+    /// What can be done about an action without window and device; gives back the others.
+    pub fn act(&mut self, action: Action) -> Option<Action> {
+        match action {
+            Action::ForgetRecent => self.preferences.recent.clear(),
+            Action::Dismiss(topic) => self.dismiss(topic),
+            other => return Some(other),
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)] // a failed unwrap is a failed test
+    use super::*;
+    use crate::settings::CameraChoice;
+
+    fn session() -> Session {
+        Session::new(Settings::default(), &WindowOptions::default(), Store::at(None))
+    }
+
+    /// Opens, waits, takes.
+    fn open(session: &mut Session, choice: SceneChoice, upload: Result<(), String>) -> bool {
+        let (woken, wait) = std::sync::mpsc::channel();
+        session.open(choice, false, move || woken.send(()).unwrap());
+        wait.recv_timeout(std::time::Duration::from_secs(60)).unwrap();
+        session.take_opened(|_| upload)
+    }
+
+    fn cube(folder: &std::path::Path) -> SceneChoice {
+        let path = folder.join("tri.gltf");
+        let text = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+            "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+            "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+            "bufferViews":[{"buffer":0,"byteLength":36}],
+            "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}"#;
+        std::fs::write(&path, text).unwrap();
+        SceneChoice::File(path)
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_opened_leaves_the_running_scene_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut session = session();
+        let good = cube(folder.path());
+        assert!(!open(&mut session, good.clone(), Ok(())));
+        assert_eq!(session.settings.scene, good);
+        let SceneChoice::File(path) = &good else { unreachable!() };
+        assert_eq!(session.preferences.recent, [path.clone()]);
+        session.settings.camera = CameraChoice::Named("0".into());
+        let before = session.settings.clone();
+
+        assert!(!open(&mut session, SceneChoice::File(folder.path().join("none.glb")), Ok(())));
+        assert_eq!(session.settings, before);
+        assert!(session.loaded.is_some());
+        assert!(session.notices[0].words.contains("none.glb"), "{:?}", session.notices);
+
+        assert!(!open(&mut session, good, Err("too many triangles".into())));
+        assert_eq!(session.settings, before, "nor does one that the device cannot take");
+        assert!(session.notices[0].words.contains("too many triangles"));
+    }
+
+    #[test]
+    fn a_bad_first_file_calls_for_the_default_scene() {
+        let mut session = session();
+        assert!(open(&mut session, SceneChoice::File("/nowhere.glb".into()), Ok(())));
+        assert_eq!(session.settings.scene, SceneChoice::default());
+    }
+
+    #[test]
+    fn titles_hold_no_nul() {
+        let mut session = session();
+        session.settings.scene = SceneChoice::File("/a/b\0c.glb".into());
+        assert_eq!(session.title(), "Obscura \u{2014} b\u{fffd}c.glb \u{2014} z-fail");
+    }
+
+    #[test]
+    fn a_newer_word_replaces_the_older() {
+        let mut session = session();
+        session.notice(Topic::Picture, Tone::Good, "one");
+        session.notice(Topic::Scene, Tone::Error, "two");
+        session.notice(Topic::Picture, Tone::Good, "three");
+        let words: Vec<_> = session.notices.iter().map(|notice| notice.words.as_str()).collect();
+        assert_eq!(words, ["two", "three"]);
+    }
+}
