@@ -18,7 +18,7 @@ use winit::window::{Fullscreen, Window, WindowId};
 use super::device::{Painted, Screen};
 use super::pace::{self, Pace};
 use super::session::{Drawn, Session};
-use super::surface::{After, Before, SurfaceState};
+use super::surface::{AFTER_TIMEOUT, After, Before, SurfaceState};
 use super::ui::{Action, FrameNumbers, Outcome, Tone, Topic, style};
 use super::{AppError, Wake, WindowOptions, store};
 use crate::director::stage;
@@ -36,6 +36,8 @@ struct Live {
     screen: Option<Screen>,
     egui: egui_winit::State,
     surface: SurfaceState,
+    /// The surface was lost, and is to be made anew.
+    surface_gone: bool,
     vsync: bool,
     title: String,
     window: Arc<Window>,
@@ -48,6 +50,7 @@ pub(super) struct Shell {
     proxy: EventLoopProxy<Wake>,
     live: Option<Live>,
     pace: Pace,
+    started: Instant,
     last_frame: Option<Instant>,
     last_picture: Option<Instant>,
     next_shader_poll: Option<Instant>,
@@ -64,6 +67,7 @@ impl Shell {
             proxy,
             live: None,
             pace: Pace::default(),
+            started: Instant::now(),
             last_frame: None,
             last_picture: None,
             next_shader_poll: None,
@@ -111,7 +115,8 @@ impl Shell {
         let size = window.inner_size().into();
         let title = self.session.title();
         let vsync = self.session.preferences.vsync;
-        self.live = Some(Live { screen: None, egui, surface: SurfaceState::new(size), vsync, title, window });
+        self.live =
+            Some(Live { screen: None, egui, surface: SurfaceState::new(size), surface_gone: false, vsync, title, window });
         self.build_screen()?;
         self.open(self.session.settings.scene.clone(), true);
         Ok(())
@@ -133,6 +138,7 @@ impl Shell {
         });
         live.egui.set_max_texture_side(screen.max_side() as usize);
         live.surface.recreated();
+        live.surface_gone = false;
         if let Some(loaded) = &self.session.loaded
             && let Err(error) = screen.set_scene(&loaded.scene)
         {
@@ -201,6 +207,10 @@ impl Shell {
         if screen.context.is_lost() {
             return self.rebuild();
         }
+        if std::mem::take(&mut live.surface_gone) {
+            screen.recreate_surface()?;
+            live.surface.recreated();
+        }
         // Timestamps and finished work arrive only when somebody asks.
         if let Err(error) = screen.context.device.poll(wgpu::PollType::Poll) {
             tracing::debug!("poll: {error}");
@@ -210,7 +220,7 @@ impl Shell {
         }
         self.session.advance(elapsed);
 
-        let (painted, outcome, mut textures) = run_panel(live, &mut self.session, &mut self.pace, now);
+        let (painted, outcome, mut textures) = run_panel(live, &mut self.session, &mut self.pace, now, now - self.started);
         let Some(screen) = &mut live.screen else { return Ok(()) };
         screen.take_textures(&mut textures);
         // Nothing of it may be left when a lost device panics: it asserts so when it is dropped.
@@ -312,8 +322,12 @@ impl Shell {
                 }
                 (After::Reconfigure, _) => {}
                 (After::Recreate, _) => {
-                    screen.recreate_surface()?;
-                    live.surface.recreated();
+                    // Not at once: the window may be gone, and the word of it still on its way.
+                    live.surface_gone = true;
+                    let when = Instant::now() + AFTER_TIMEOUT;
+                    self.pace.hold(when);
+                    self.pace.want(when);
+                    return Ok(false);
                 }
                 (After::Rebuild, _) => return self.rebuild().map(|()| false),
                 (After::GiveUp, _) => return Err(AppError::SurfaceLost),
@@ -415,9 +429,29 @@ fn new_egui(context: egui::Context, window: &Arc<Window>, max_side: Option<usize
     egui_winit::State::new(context, egui::ViewportId::ROOT, &**window, Some(scale), window.theme(), max_side)
 }
 
+/// The input since the last frame. egui's own way asks the window system for the size, which
+/// panics in winit when another program has destroyed the window; the surface knows it as well.
+fn take_input(live: &mut Live, time: Duration) -> egui::RawInput {
+    let scale = live.window.scale_factor() as f32;
+    let pixels_per_point = scale * live.egui.egui_ctx().zoom_factor();
+    let [width, height] = live.surface.size().map(|side| side as f32 / pixels_per_point);
+    let input = live.egui.egui_input_mut();
+    input.time = Some(time.as_secs_f64());
+    input.screen_rect = Some(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(width, height)));
+    input.viewport_id = egui::ViewportId::ROOT;
+    input.viewports.entry(egui::ViewportId::ROOT).or_default().native_pixels_per_point = Some(scale);
+    input.take()
+}
+
 /// Runs the panel over the input that came since the last frame.
-fn run_panel(live: &mut Live, session: &mut Session, pace: &mut Pace, now: Instant) -> (Painted, Outcome, egui::TexturesDelta) {
-    let input = live.egui.take_egui_input(&live.window);
+fn run_panel(
+    live: &mut Live,
+    session: &mut Session,
+    pace: &mut Pace,
+    now: Instant,
+    started: Duration,
+) -> (Painted, Outcome, egui::TexturesDelta) {
+    let input = take_input(live, started);
     let context = live.egui.egui_ctx().clone();
     let capabilities = live.screen.as_ref().map(|screen| screen.context.capabilities().clone());
     let picture = live.screen.as_ref().and_then(Screen::painted_picture);

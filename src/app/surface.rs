@@ -130,6 +130,12 @@ impl SurfaceState {
         self.configured = None;
     }
 
+    /// The window's size, pixels.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
     /// Pixels to draw on, or none while there is nothing to draw on. Clamped to what the device can do.
     #[must_use]
     pub fn drawable(&self, max_side: u32) -> Option<[u32; 2]> {

@@ -16,7 +16,7 @@ pub fn help(ui: &Ui, open: &mut bool) {
         .anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0))
         .show(ui.ctx(), |ui| {
             let height = ui.ctx().content_rect().height() - 90.0;
-            egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
+            egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
                 ui.horizontal_top(|ui| {
                     for groups in [&Group::ALL[..2], &Group::ALL[2..]] {
                         ui.vertical(|ui| {
