@@ -92,7 +92,18 @@ fn cornell_box() {
     assert_eq!(runs, [(0, 18, 2), (18, 6, 3), (24, 6, 4)]);
     assert_eq!(scene.materials[0].emissive, Vec3::splat(100.0));
     assert!(scene.materials.iter().all(|material| material.double_sided));
-    assert_eq!(scene.lights.len(), 2, "it has none of its own");
+    // It has neither lights nor cameras. The panel in the ceiling shines, and one looks in from the front.
+    let posed = pose(&scene, 0.0, scene.default_animation, &BTreeMap::new());
+    assert_eq!((scene.lights.len(), scene.lights[0].name.as_str()), (1, "Light"));
+    let panel = scene.nodes.iter().find(|node| node.mesh.is_some() && node.name == "Light").unwrap();
+    assert!(!panel.casts_shadow);
+    let below = panel.local.affine().translation - posed.lights[0].position;
+    assert!(below.x.abs() < 1.0 && below.z.abs() < 1.0 && (1.0..20.0).contains(&below.y), "{below}");
+    let area = 130.0 * 105.0;
+    assert!((scene.lights[0].intensity / (100.0 * area) - 1.0).abs() < 0.01, "radiance times area");
+    looks_at_the_scene(&scene);
+    let eye = posed.world_from_node[scene.cameras[0].node].translation;
+    assert!((eye.x - f64::from(bounds(&scene).center().x)).abs() < 1.0 && eye.z > 500.0, "{eye}");
 }
 
 #[test]

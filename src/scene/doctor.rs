@@ -68,13 +68,19 @@ pub struct MeshReport {
 /// Looks at all of `scene`.
 #[must_use]
 pub fn report(scene: &Scene) -> Report {
-    let meshes = scene.meshes.iter().enumerate().map(|(index, mesh)| {
-        let shown = scene.nodes.iter().filter(|node| node.mesh == Some(index));
+    // How often each mesh is shown, and how often it casts.
+    let mut shown = vec![(0, 0); scene.meshes.len()];
+    for node in &scene.nodes {
+        if let Some((instances, casters)) = node.mesh.and_then(|mesh| shown.get_mut(mesh)) {
+            *instances += 1;
+            *casters += usize::from(node.casts_shadow);
+        }
+    }
+    let meshes = scene.meshes.iter().zip(shown).map(|(mesh, (instances, casters))| {
         let topology = mesh.topology.report().clone();
-        let casters = shown.clone().filter(|node| node.casts_shadow).count();
         MeshReport {
             name: mesh.name.clone(),
-            instances: shown.count(),
+            instances,
             casters,
             triangles: mesh.indices.len() / 3,
             vertices: mesh.positions.len(),

@@ -120,7 +120,7 @@ fn animated(scene: &Scene, time: f64, choice: AnimationChoice) -> (Vec<Transform
 }
 
 /// Has an inverse that can be worked with: lights can be brought into the object's space.
-fn is_invertible(world_from_node: &DAffine3) -> bool {
+pub(super) fn is_invertible(world_from_node: &DAffine3) -> bool {
     // Lengths whose squares and inverses single precision still holds, and axes that do not all
     // but lie in one plane.
     const LENGTHS: std::ops::Range<f64> = 1e-12..1e12;

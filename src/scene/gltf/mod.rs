@@ -11,7 +11,8 @@
 //! nodes      the hierarchy: cycles and two parents are errors; parents first
 //! accessor   buffers -> numbers, every step checked, out of one memory budget
 //! mesh, materials, images, lights, animation      -> the scene's
-//! staging    what the file leaves out: lights, a camera, the exposure; a floor when asked for
+//! staging    what the file leaves out: lights (lamps), a camera (viewpoint), the exposure
+//! floor      when asked for
 //! ```
 //!
 //! What can be shown without harm in spite of a fault is shown, with a warning in
@@ -23,22 +24,27 @@ mod container;
 mod document;
 mod error;
 mod files;
+mod floor;
 mod images;
+mod lamps;
 mod lights;
 mod materials;
 mod mesh;
 mod nodes;
 mod staging;
+mod viewpoint;
 
 use std::path::Path;
 
+use glam::DAffine3;
 use gltf::json::Root;
 
 pub use super::open::{Loading, load_on_thread};
 pub use error::{AccessorError, ImportError, Problem};
-pub use staging::add_floor;
+pub use floor::add_floor;
 
-use super::{AnimationChoice, Material, Mesh, Scene};
+use super::pose::is_invertible;
+use super::{AnimationChoice, Material, Mesh, Property, Scene};
 use error::{Budget, Warnings, part};
 use files::Folder;
 
@@ -107,14 +113,14 @@ fn import(name: &str, bytes: &[u8], folder: &Folder) -> Result<Scene, Problem> {
     if scene.instances().next().is_none() {
         return Err(Problem::Nothing("the scene's nodes show no triangles".into()));
     }
-    check_instances(&mut scene, &root, &hierarchy, &store, &mut warnings)?;
     scene.textures = images.textures;
     scene.animations = animation::import(&root, &store, &hierarchy, &scene.nodes, &scene.meshes, &mut warnings)?;
+    check_instances(&mut scene, &root, &hierarchy, &store, &mut warnings)?;
     scene.default_animation = if scene.animations.is_empty() { AnimationChoice::All } else { AnimationChoice::One(0) };
     scene.lights = lights::lights(&root, &hierarchy, &mut warnings)?;
     let (cameras, heights): (Vec<_>, Vec<_>) = lights::cameras(&root, &hierarchy, &mut warnings)?.into_iter().unzip();
     scene.cameras = cameras;
-    staging::complete(&mut scene, &heights)?;
+    staging::complete(&mut scene, &heights, &mut warnings)?;
     scene.warnings = warnings.finish();
     Ok(scene)
 }
@@ -144,6 +150,22 @@ fn import_meshes(
     Ok((meshes, numbers))
 }
 
+/// Which nodes may have no inverse, now or when their animations play: meshes there are posed vertex by
+/// vertex.
+fn flattened(scene: &Scene) -> Vec<bool> {
+    let mut scaled = vec![false; scene.nodes.len()];
+    for channel in scene.animations.iter().flat_map(|animation| &animation.channels) {
+        scaled[channel.node] |= channel.property == Property::Scale;
+    }
+    let mut world_from_node: Vec<DAffine3> = Vec::with_capacity(scene.nodes.len());
+    for (index, node) in scene.nodes.iter().enumerate() {
+        let world_from_parent = node.parent.map_or(DAffine3::IDENTITY, |parent| world_from_node[parent]);
+        world_from_node.push(world_from_parent * node.local.affine());
+        scaled[index] |= node.parent.is_some_and(|parent| scaled[parent]);
+    }
+    scaled.iter().zip(&world_from_node).map(|(scaled, placed)| *scaled || !is_invertible(placed)).collect()
+}
+
 /// What depends on a mesh and on the node that shows it: enough joints, enough weights, and memory for
 /// every instance that is bent on the CPU.
 fn check_instances(
@@ -154,6 +176,7 @@ fn check_instances(
     warnings: &mut Warnings,
 ) -> Result<(), Problem> {
     let joints_needed = mesh::joints_needed(&scene.meshes);
+    let flattened = flattened(scene);
     for (index, node) in scene.nodes.iter_mut().enumerate() {
         let Some(mesh_index) = node.mesh else { continue };
         let mesh = &scene.meshes[mesh_index];
@@ -184,8 +207,11 @@ fn check_instances(
             }
             node.morph_weights.resize(mesh.morphs.len(), 0.0);
         }
-        // Two arrays of vectors, one of floats: what a pose holds of it.
-        if mesh.is_deformable() && !store.budget().take(Some(mesh.positions.len() as u64 * 32)) {
+        // What a pose holds of it, two arrays of vectors and one of floats, and what it costs to make.
+        let bent = mesh.is_deformable() || flattened[index];
+        let joints = node.skin.map_or(0, |skin| scene.skins[skin].joints.len()) as u64;
+        let bytes = mesh.positions.len() as u64 * (32 + 8 * mesh.morphs.len() as u64) + joints * 160;
+        if bent && !store.budget().take(Some(bytes)) {
             return Err(Problem::TooLarge { what: "its geometry is", limit: budget_words() });
         }
     }

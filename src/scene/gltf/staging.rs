@@ -1,21 +1,18 @@
-//! What a scene needs to be seen and a file may leave out: light, a camera, an exposure, a floor.
+//! What a scene needs to be seen and a file may leave out: light, a camera, an exposure.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3, Vec4};
+use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3};
 
-use super::error::{Problem, clip};
+use super::error::{Problem, Warnings, clip};
+use super::{lamps, viewpoint};
 use crate::geometry::Aabb;
-use crate::scene::mesh::MeshParts;
-use crate::scene::{
-    Camera, Environment, Light, LightKind, Material, Mesh, Node, Pose, Primitive, Scene, Texture, Transform, Wrap, pose,
-};
+use crate::scene::{Camera, Environment, Light, LightKind, Node, Pose, Scene, Transform, pose};
 
 /// Metres from the origin, and in size: beyond, single-precision arithmetic on squares of lengths ends.
 const FARTHEST: f64 = 1e12;
-/// Where the scene is looked at from and lit from, seen from its middle.
-const CAMERA_SIDE: DVec3 = DVec3::new(0.55, 0.42, 1.0);
+/// Where the scene is lit from, seen from its middle.
 const KEY_SIDE: DVec3 = DVec3::new(0.55, 0.9, 0.6);
 const FILL_SIDE: DVec3 = DVec3::new(-0.8, 0.6, 0.35);
 /// The irradiance that looks well lit at exposure 1: a white surface then shines with 0.8 of white.
@@ -24,10 +21,13 @@ const GOOD_IRRADIANCE: f64 = 0.8 * PI;
 const EXPOSURES: (f64, f64) = (1e-8, 1e6);
 
 /// Fills in what is missing. `heights` are what orthographic cameras see, half.
-pub(super) fn complete(scene: &mut Scene, heights: &[Option<f64>]) -> Result<(), Problem> {
-    let posed = pose_at(scene, 0.0);
+pub(super) fn complete(scene: &mut Scene, heights: &[Option<f64>], warnings: &mut Warnings) -> Result<(), Problem> {
+    let mut posed = pose_at(scene, 0.0);
     let bounds = bounds(scene, &posed)?;
     let (center, radius) = (bounds.center().as_dvec3(), f64::from(bounds.radius()).max(1e-3));
+    if scene.lights.is_empty() && lamps::add(scene, &posed, radius, warnings) {
+        posed = pose_at(scene, 0.0);
+    }
     if scene.lights.is_empty() {
         add_lights(scene, center, radius);
         scene.exposure = 1.0;
@@ -42,7 +42,7 @@ pub(super) fn complete(scene: &mut Scene, heights: &[Option<f64>]) -> Result<(),
         };
     }
     if scene.cameras.is_empty() {
-        add_camera(scene, &bounds, center, radius);
+        add_camera(scene, &posed, &bounds, center, radius);
     }
     for (camera, height) in scene.cameras.iter_mut().zip(heights) {
         let Some(world_from_node) = posed.world_from_node.get(camera.node) else { continue };
@@ -57,12 +57,13 @@ pub(super) fn complete(scene: &mut Scene, heights: &[Option<f64>]) -> Result<(),
     Ok(())
 }
 
-fn pose_at(scene: &Scene, time: f64) -> Pose {
+/// As the scene shows itself first.
+pub(super) fn pose_at(scene: &Scene, time: f64) -> Pose {
     pose::pose(scene, time, scene.default_animation, &BTreeMap::new())
 }
 
 /// The box around everything shown, world space; an error where something is nowhere.
-fn bounds(scene: &Scene, pose: &Pose) -> Result<Aabb, Problem> {
+pub(super) fn bounds(scene: &Scene, pose: &Pose) -> Result<Aabb, Problem> {
     for (index, node, mesh) in scene.instances() {
         let near = |bounds: Aabb| {
             let farthest = bounds.min.abs().max(bounds.max.abs());
@@ -79,7 +80,8 @@ fn bounds(scene: &Scene, pose: &Pose) -> Result<Aabb, Problem> {
     Ok(scene.bounds(pose))
 }
 
-fn add_node(scene: &mut Scene, name: &str, eye: DVec3, target: DVec3) -> usize {
+/// A node that looks from `eye` to `target`.
+pub(super) fn add_node(scene: &mut Scene, name: &str, eye: DVec3, target: DVec3) -> usize {
     let back = (eye - target).normalize_or(DVec3::Z);
     let right = DVec3::Y.cross(back).normalize_or(DVec3::X);
     let rotation = DQuat::from_mat3(&DMat3::from_cols(right, back.cross(right), back)).normalize();
@@ -112,20 +114,23 @@ fn add_lights(scene: &mut Scene, center: DVec3, radius: f64) {
     });
 }
 
-/// From the front, a little to the right and above, so that all of the bounds is in view.
-fn add_camera(scene: &mut Scene, bounds: &Aabb, center: DVec3, radius: f64) {
+/// From the front, a little to the right and above or wherever more can be seen, so that all of the
+/// bounds is in view.
+fn add_camera(scene: &mut Scene, posed: &Pose, bounds: &Aabb, center: DVec3, radius: f64) {
     let vertical_fov = 45f64.to_radians();
-    let back = CAMERA_SIDE.normalize();
-    let right = DVec3::Y.cross(back).normalize();
-    let up = back.cross(right);
-    let tangent = (0.5 * vertical_fov).tan();
-    let needed = |corner: DVec3| {
-        let offset = corner - center;
-        let sideways = (offset.dot(right).abs() / 1.4).max(offset.dot(up).abs()); // pictures are wider than high
-        offset.dot(back) + sideways / tangent
-    };
-    let distance = bounds.corners().into_iter().map(needed).fold(0.0, f64::max).max(radius) * 1.06;
-    let node = add_node(scene, "camera", center + back * distance, center);
+    let eye = viewpoint::choose(scene, posed, |back| {
+        let right = DVec3::Y.cross(back).normalize();
+        let up = back.cross(right);
+        let tangent = (0.5 * vertical_fov).tan();
+        let needed = |corner: DVec3| {
+            let offset = corner - center;
+            let sideways = (offset.dot(right).abs() / 1.4).max(offset.dot(up).abs()); // pictures are wider than high
+            offset.dot(back) + sideways / tangent
+        };
+        center + back * (bounds.corners().into_iter().map(needed).fold(0.0, f64::max).max(radius) * 1.06)
+    });
+    let distance = eye.distance(center);
+    let node = add_node(scene, "camera", eye, center);
     // Depth is a 24-bit integer: what the near plane gains, the surfaces far behind it lose.
     let near = (radius / 200.0).clamp(1e-5, 0.5);
     scene.cameras.push(Camera { name: "camera".into(), node, vertical_fov, near, focus_distance: distance });
@@ -184,81 +189,4 @@ fn sample(scene: &Scene, pose: &Pose, casters: bool) -> Vec<DVec3> {
         points.extend(positions.iter().step_by(step).map(|position| world_from_object.transform_point3(position.as_dvec3())));
     }
     points
-}
-
-/// Adds a checkered floor just beneath everything, at any time of its animations, several times as
-/// large. It catches shadows and casts none.
-pub fn add_floor(scene: &mut Scene) {
-    const TIMES: u32 = 12;
-    let longest = scene.animations.iter().map(|animation| animation.duration).fold(0.0, f64::max);
-    let times = if longest > 0.0 { TIMES } else { 1 };
-    let mut all = Aabb::EMPTY;
-    for step in 0..times {
-        // A scene that came through the importer is within bounds at the start; later it may not be.
-        if let Ok(bounds) = bounds(scene, &pose_at(scene, longest * f64::from(step) / f64::from(times))) {
-            all = all.union(&bounds);
-        }
-    }
-    let (center, half) = (all.center(), all.half_size());
-    let radius = all.radius().max(1e-3);
-    let size = 4.0 * half.x.max(half.z).max(0.6 * radius);
-    let tiles = 2.0 * size / (0.35 * radius);
-    let height = if all.is_empty() { 0.0 } else { all.min.y - 2e-3 * radius };
-
-    let texture = scene.textures.len();
-    scene.textures.push(checker());
-    let material = scene.materials.len();
-    scene.materials.push(Material {
-        name: "floor".into(),
-        base_color: Vec4::ONE,
-        base_color_texture: Some(texture),
-        roughness: 0.9,
-        double_sided: true,
-        ..Material::default()
-    });
-    let corners = [Vec2::new(-1.0, -1.0), Vec2::new(-1.0, 1.0), Vec2::new(1.0, 1.0), Vec2::new(1.0, -1.0)];
-    let mesh = Mesh::new(MeshParts {
-        name: "floor".into(),
-        positions: corners.iter().map(|corner| Vec3::new(corner.x * size, 0.0, corner.y * size)).collect(),
-        normals: Some(vec![Vec3::Y; 4]),
-        // The texture is two tiles wide.
-        uvs: Some(corners.iter().map(|corner| *corner * tiles / 4.0).collect()),
-        indices: vec![0, 1, 2, 0, 2, 3],
-        primitives: vec![Primitive { first_index: 0, index_count: 6, material, casts_shadow: true }],
-        ..MeshParts::default()
-    });
-    // Four finite corners are a mesh; were they none, there would be no floor.
-    let Ok(mesh) = mesh else { return };
-    scene.meshes.push(mesh);
-    let translation = Vec3::new(center.x, height, center.z).as_dvec3();
-    scene.nodes.push(Node {
-        name: "floor".into(),
-        local: Transform::Trs { translation, rotation: DQuat::IDENTITY, scale: DVec3::ONE },
-        mesh: Some(scene.meshes.len() - 1),
-        casts_shadow: false,
-        ..Node::default()
-    });
-}
-
-/// Two by two tiles in soft colours, with darker joints.
-fn checker() -> Texture {
-    const SIDE: u32 = 256;
-    let pixel = |at: u32| {
-        let (x, y) = (at % SIDE, at / SIDE);
-        let joint = |v: u32| v % (SIDE / 2) < 2;
-        let light = (x / (SIDE / 2) + y / (SIDE / 2)).is_multiple_of(2);
-        match (joint(x) || joint(y), light) {
-            (true, _) => [150, 146, 140, 255],
-            (_, true) => [214, 208, 198, 255],
-            (_, false) => [178, 180, 184, 255],
-        }
-    };
-    Texture {
-        name: "floor".into(),
-        width: SIDE,
-        height: SIDE,
-        rgba: (0..SIDE * SIDE).flat_map(pixel).collect(),
-        wrap: [Wrap::Repeat; 2],
-        nearest: false,
-    }
 }
