@@ -82,6 +82,12 @@ impl WindowRequest {
     pub fn settings(&self, saved: Settings) -> Result<Settings, InputError> {
         self.arguments.picture.settings(self.arguments.scene.as_deref(), saved)
     }
+
+    /// Whether the arguments say which scene: then it is theirs, and not the last run's.
+    #[must_use]
+    pub fn names_scene(&self) -> bool {
+        self.arguments.scene.is_some()
+    }
 }
 
 /// Reads the process's arguments, the program's name first.

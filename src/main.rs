@@ -62,6 +62,10 @@ fn run(command: Command) -> Result<(), Failure> {
 fn window(request: &WindowRequest) -> Result<(), Failure> {
     if has_display() {
         let (settings, options) = obscura::app::start(request)?;
+        if request.names_scene() {
+            // A typing mistake; what is wrong with a file that is there, the panel says.
+            headless::check_exists(&settings.scene)?;
+        }
         Ok(obscura::app::run(settings, options)?)
     } else if request.bare {
         take_tour(Path::new("out"))

@@ -295,6 +295,21 @@ fn a_window_without_a_display_points_to_render() {
 }
 
 #[test]
+fn a_window_for_a_scene_that_is_not_there_does_not_open() {
+    let folder = tempfile::tempdir().unwrap();
+    // There is no such display, but that is not what is wrong first.
+    let output = obscura(folder.path())
+        .args(["no-such.glb"])
+        .env("DISPLAY", ":4242")
+        .env("OBSCURA_CONFIG_DIR", folder.path())
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.starts_with("obscura: error: no scene or file `no-such.glb`"), "{said}");
+}
+
+#[test]
 fn without_a_display_the_tour_starts_by_itself() {
     let folder = tempfile::tempdir().unwrap();
     // The whole tour takes long on a software device: it is enough to see it draw its first picture.

@@ -44,18 +44,26 @@ pub enum HeadlessError {
     Folder(PathBuf, #[source] std::io::Error),
 }
 
-/// Opens a scene. A lone word that is no file either was meant as a stock scene's name.
+/// Opens a scene.
 ///
 /// # Errors
 /// No such scene, or a file that cannot be imported.
 pub fn open_scene(choice: &SceneChoice, floor: bool) -> Result<Scene, HeadlessError> {
-    if let SceneChoice::File(path) = choice
-        && path.extension().is_none()
-        && path.components().count() == 1
-        && !path.exists()
-    {
-        let known = stock::TABLE.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", ");
-        return Err(InputError::NoScene { name: path.to_string_lossy().into_owned(), known }.into());
-    }
+    check_exists(choice)?;
     Ok(crate::scene::open(choice, floor)?)
+}
+
+/// Says whether there is anything to open. A word that is no file may have been meant as a stock
+/// scene's name, so those are listed.
+///
+/// # Errors
+/// A file that is not there.
+pub fn check_exists(choice: &SceneChoice) -> Result<(), InputError> {
+    match choice {
+        SceneChoice::File(path) if matches!(path.try_exists(), Ok(false)) => {
+            let known = stock::TABLE.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", ");
+            Err(InputError::NoScene { name: path.to_string_lossy().into_owned(), known })
+        }
+        _ => Ok(()),
+    }
 }
