@@ -31,6 +31,7 @@ pub fn floors() -> Vec<u8> {
         ("marble", texture::marble(), 12.0, 0.35),
         ("cobbles", texture::cobbles(), 18.0, 0.8),
         ("planks", texture::planks(), 14.0, 0.5),
+        ("paving", texture::paving(), 10.0, 0.7),
     ];
     for (name, png, repeats, roughness) in pictures {
         let texture = glb.texture(name, &png);
@@ -55,13 +56,13 @@ pub fn floors() -> Vec<u8> {
 }
 
 fn column() -> Soup {
-    const FLUTES: f64 = 14.0;
+    const FLUTES: f64 = 12.0;
     let mut profile: Vec<DVec2> = vec![(0.0, 0.11), (0.30, 0.11)].into_iter().map(DVec2::from).collect();
-    profile.extend(arc(DVec2::new(0.265, 0.16), DVec2::splat(0.05), -0.25, 0.25, 6)); // torus
-    profile.extend([(0.245, 0.24), (0.24, 0.27), (0.205, 0.30)].map(DVec2::from));
-    profile.extend([(0.205, 0.34), (0.202, 0.95), (0.194, 1.6), (0.180, 2.20)].map(DVec2::from)); // shaft, with entasis
-    profile.extend([(0.180, 2.24), (0.205, 2.26), (0.205, 2.30), (0.185, 2.31)].map(DVec2::from));
-    profile.extend([(0.190, 2.36), (0.215, 2.42), (0.265, 2.47), (0.275, 2.49), (0.0, 2.49)].map(DVec2::from));
+    profile.extend(arc(DVec2::new(0.265, 0.16), DVec2::splat(0.05), -0.25, 0.25, 3)); // torus
+    profile.extend([(0.242, 0.26), (0.205, 0.30)].map(DVec2::from));
+    profile.extend([(0.205, 0.34), (0.200, 1.15), (0.180, 2.20)].map(DVec2::from)); // shaft, with entasis
+    profile.extend([(0.180, 2.23), (0.205, 2.25), (0.205, 2.30)].map(DVec2::from));
+    profile.extend([(0.186, 2.32), (0.215, 2.42), (0.272, 2.49), (0.0, 2.49)].map(DVec2::from));
     let shaft = lathe(&profile, 3 * FLUTES as usize, |p, turns| {
         let fluted = (0.34..=2.20).contains(&p.y);
         let f = turns * FLUTES - (turns * FLUTES).floor();

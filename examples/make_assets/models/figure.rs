@@ -25,7 +25,7 @@ struct Part {
 }
 
 const SKIN: [f64; 3] = [0.50, 0.27, 0.16];
-const SHIRT: [f64; 3] = [0.46, 0.42, 0.34];
+const SHIRT: [f64; 3] = [0.17, 0.11, 0.07];
 const TROUSERS: [f64; 3] = [0.09, 0.12, 0.19];
 const BOOTS: [f64; 3] = [0.10, 0.055, 0.03];
 
@@ -168,7 +168,7 @@ fn paint(color: [f64; 3]) -> [u8; 3] {
     color.map(|c| (c * 255.0).round() as u8)
 }
 
-/// A brim that dips before and behind, and a crown with a dent.
+/// A brim that droops all round, and a crown with a dent.
 fn hat() -> Shape {
     let profile: Vec<DVec2> = [
         (0.0, 1.700),
@@ -186,11 +186,10 @@ fn hat() -> Shape {
     ]
     .map(DVec2::from)
     .to_vec();
-    lathe(&profile, 28, |p, _| p.x)
+    lathe(&profile, 24, |p, _| p.x)
         .map(|p| {
             let brim = ((p.x * p.x + p.z * p.z).sqrt() - 0.11).max(0.0) / 0.15;
-            let roll = (p.x * p.x - p.z * p.z) * 0.9;
-            DVec3::new(p.x * 0.96, p.y + brim * roll - 0.012 * p.z, p.z * 1.06 + 0.015)
+            DVec3::new(p.x * 0.88, p.y - brim * 0.028 - 0.02 * p.z, p.z * 0.96 + 0.015)
         })
         .painted(|p| if p.y > 1.708 && p.y < 1.755 { [0.20, 0.05, 0.03] } else { [0.24, 0.17, 0.10] })
         .creased(0.7)
@@ -230,9 +229,9 @@ fn cape() -> Shape {
 pub fn file() -> Vec<u8> {
     let parts = parts();
     let f = |p: DVec3| body(&parts, p);
-    let size = 0.0315;
-    let cells = IVec3::new(40, 58, 13);
-    let low = DVec3::new(-0.5 * size * 40.0, -0.0205, -0.174);
+    let size = 0.036;
+    let cells = IVec3::new(36, 52, 12);
+    let low = DVec3::new(-0.5 * size * 36.0, -0.0205, -0.190);
     let mut shape = surface_nets(&f, low, cells, size);
     let nearest = |p: DVec3| parts.iter().min_by(|a, b| a.distance(p).total_cmp(&b.distance(p))).map_or(SKIN, |part| part.color);
     shape.colors = shape.positions.iter().map(|&p| paint(nearest(p))).collect();

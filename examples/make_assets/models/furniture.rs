@@ -38,11 +38,11 @@ fn fountain() -> Soup {
     // The stem and the upper bowl, in one turned piece.
     let mut stem = points(&[(0.0, 0.14), (0.34, 0.14), (0.34, 0.24), (0.26, 0.30), (0.17, 0.40)]);
     stem.extend(points(&[(0.12, 0.58), (0.12, 0.72), (0.18, 0.84), (0.19, 0.88), (0.13, 0.93), (0.15, 0.99)]));
-    stem.extend(arc(DVec2::new(0.0, 1.42), DVec2::new(0.86, 0.42), -0.22, -0.03, 10));
+    stem.extend(arc(DVec2::new(0.0, 1.42), DVec2::new(0.86, 0.42), -0.22, -0.03, 7));
     stem.extend(points(&[(0.90, 1.38), (0.90, 1.43), (0.80, 1.43), (0.78, 1.385)]));
-    stem.extend(arc(DVec2::new(0.0, 1.40), DVec2::new(0.76, 0.28), -0.03, -0.20, 8));
+    stem.extend(arc(DVec2::new(0.0, 1.40), DVec2::new(0.76, 0.28), -0.03, -0.20, 5));
     stem.extend(points(&[(0.10, 1.19), (0.085, 1.30), (0.075, 1.55), (0.11, 1.60), (0.11, 1.64), (0.07, 1.67)]));
-    stem.extend(arc(DVec2::new(0.0, 1.79), DVec2::new(0.11, 0.13), -0.17, 0.12, 8));
+    stem.extend(arc(DVec2::new(0.0, 1.79), DVec2::new(0.11, 0.13), -0.17, 0.12, 5));
     stem.extend(points(&[(0.035, 1.95), (0.0, 2.05)]));
     let stem = lathe(&stem, 36, |p, turns| {
         // A scalloped bowl.
@@ -60,15 +60,15 @@ fn water() -> Soup {
 
 /// A trefoil-like band that never ends.
 fn knot() -> Soup {
-    let path: Vec<DVec3> = (0..144)
+    let path: Vec<DVec3> = (0..112)
         .map(|i| {
-            let t = i as f64 / 144.0;
+            let t = i as f64 / 112.0;
             let (around, through) = (turn(t * 2.0), turn(t * 3.0));
             let r = 0.36 + 0.15 * through.x;
             DVec3::new(around.x * r, around.y * r, 0.17 * through.y)
         })
         .collect();
-    tube(&path, 14, |_| 0.075)
+    tube(&path, 12, |_| 0.075)
 }
 
 fn plinth() -> Soup {
@@ -162,11 +162,11 @@ fn bench() -> Soup {
 /// A tall vase with a lip, hollow down to its foot.
 fn urn() -> Soup {
     let mut profile = points(&[(0.0, 0.0), (0.16, 0.0), (0.17, 0.03), (0.10, 0.08)]);
-    profile.extend(arc(DVec2::new(0.0, 0.50), DVec2::new(0.30, 0.42), -0.20, 0.15, 12));
+    profile.extend(arc(DVec2::new(0.0, 0.50), DVec2::new(0.30, 0.42), -0.20, 0.15, 9));
     profile.extend(points(&[(0.13, 0.90), (0.12, 0.97), (0.19, 1.04), (0.20, 1.07), (0.16, 1.07), (0.09, 0.98), (0.09, 0.90)]));
-    profile.extend(arc(DVec2::new(0.0, 0.50), DVec2::new(0.27, 0.39), 0.15, -0.15, 6));
+    profile.extend(arc(DVec2::new(0.0, 0.50), DVec2::new(0.27, 0.39), 0.15, -0.15, 3));
     profile.push(DVec2::new(0.0, 0.17));
-    lathe(&profile, 32, |p, _| p.x)
+    lathe(&profile, 24, |p, _| p.x)
 }
 
 /// Everything that stands about in a court.

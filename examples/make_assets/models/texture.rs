@@ -105,7 +105,7 @@ pub fn planks() -> Vec<u8> {
         let piece = along.floor() as i64 % 2;
         let seed = 30 + (board * 2 + piece) as u64 * 10;
         let tint = hash(board, piece, 21);
-        let wood = mix([0.50, 0.34, 0.21], [0.66, 0.47, 0.30], tint);
+        let wood = mix([0.47, 0.36, 0.26], [0.62, 0.49, 0.36], tint);
         let grain = clouds(DVec2::new(p.x * 48.0, p.y * 4.0 + tint), 48, seed);
         let ring = noise(DVec2::new(p.x * 96.0, p.y * 6.0), 96, seed + 5);
         let shade = 0.78 + 0.3 * grain + 0.08 * ring;
@@ -113,6 +113,21 @@ pub fn planks() -> Vec<u8> {
         let end = (along - along.floor() - 0.5).abs();
         let joint = smoothstep(0.478, 0.492, seam).max(smoothstep(0.4965, 0.4985, end));
         mix(scale(wood, shade), [0.16, 0.10, 0.06], joint * 0.9)
+    })
+}
+
+/// Large pale slabs with fine joints, for floors that show shadows well.
+pub fn paving() -> Vec<u8> {
+    png(512, |p| {
+        let row = (p.y * 3.0).floor() as i64;
+        let u = p.x * 2.0 + [0.0, 0.5, 0.25][row.rem_euclid(3) as usize];
+        let column = (u.floor() as i64).rem_euclid(2);
+        let tint = hash(column, row, 70);
+        let stone = mix([0.70, 0.66, 0.60], [0.79, 0.75, 0.68], tint);
+        let tone = 0.90 + 0.14 * clouds(p * 6.0, 6, 71) + 0.05 * (noise(p * 96.0, 96, 76) - 0.5);
+        let (x, y) = ((u - u.floor() - 0.5).abs(), (p.y * 3.0 - row as f64 - 0.5).abs());
+        let joint = smoothstep(0.4925, 0.4965, x).max(smoothstep(0.489, 0.494, y));
+        mix(scale(stone, tone), [0.36, 0.33, 0.30], joint * 0.8)
     })
 }
 

@@ -29,7 +29,7 @@ pub(super) fn build() -> Result<Scene, ImportError> {
     furniture(&mut c);
     walkers(&mut c);
     lights(&mut c);
-    c.camera("court", [6.3, 2.15, 7.4], [-1.2, 1.55, -1.6], 50.0);
+    c.camera("court", [3.9, 1.9, 7.7], [0.6, 1.6, -1.5], 50.0);
     c.camera("gallery", [-5.6, 1.75, -7.2], [1.6, 1.15, 0.4], 58.0);
     c.camera("fountain", [-3.4, 1.35, 3.6], [0.9, 1.15, -0.9], 50.0);
     Ok(c.finish())
@@ -63,15 +63,15 @@ fn galleries(c: &mut Composer) {
         c.put(&format!("left step {k}"), step, at(LEFT + 0.52, -SHADE, z).facing(90.0));
     }
     // The wall that closes the court on the right, behind the terrace.
-    c.put("right wall", wall4, at(10.6, -1.0, 0.0).facing(-90.0));
+    c.put("right wall", wall4, at(8.65, -1.0, 0.0).facing(-90.0));
 }
 
 fn terrace(c: &mut Composer) {
     let (terrace, stairs, plinth, knot) = (c.prop("terrace"), c.prop("stairs"), c.prop("plinth"), c.prop("knot"));
-    c.put("terrace", terrace, at(8.2, 0.0, -1.6));
-    c.put("stairs", stairs, at(5.9, 0.0, -1.6).facing(-90.0));
-    c.put("plinth", plinth, at(7.9, 0.8, -1.6));
-    let statue = c.put("statue", knot, at(7.9, 0.8 + 1.09 + 0.56, -1.6));
+    c.put("terrace", terrace, at(6.1, 0.0, -2.3));
+    c.put("stairs", stairs, at(6.1, 0.0, -0.31));
+    c.put("plinth", plinth, at(6.1, 0.8, -2.4));
+    let statue = c.put("statue", knot, at(6.1, 0.8 + 1.09 + 0.56, -2.4));
     c.turns(statue, 30.0, 36, |turns| glam::DQuat::from_rotation_y(turns * TAU));
 }
 
@@ -80,13 +80,13 @@ fn furniture(c: &mut Composer) {
     c.put("fountain", fountain, at(0.0, 0.0, 0.0));
     c.put("water", water, at(0.0, 0.0, 0.0));
     let (pot, cypress, urn, bench) = (c.prop("pot"), c.prop("cypress"), c.prop("urn"), c.prop("bench"));
-    for (i, (x, z)) in [(-5.2, -3.2), (-5.4, 4.6), (4.4, -3.6)].into_iter().enumerate() {
+    for (i, (x, y, z)) in [(-5.2, 0.0, -3.2), (-5.3, 0.0, 4.4), (4.35, 0.8, -3.75), (7.85, 0.8, -3.75)].into_iter().enumerate() {
         let turned = 70.0 * i as f64;
-        c.put(&format!("pot {i}"), pot, at(x, 0.0, z));
-        c.put(&format!("cypress {i}"), cypress, at(x, 0.0, z).facing(turned));
+        c.put(&format!("pot {i}"), pot, at(x, y, z));
+        c.put(&format!("cypress {i}"), cypress, at(x, y, z).facing(turned));
     }
-    c.put("urn", urn, at(5.6, 0.0, 1.0).facing(20.0));
-    c.put("small urn", urn, at(5.2, 0.0, 1.55).facing(75.0).sized(0.62));
+    c.put("urn", urn, at(4.15, 0.0, 0.6).facing(20.0));
+    c.put("small urn", urn, at(8.0, 0.0, 1.1).facing(75.0).sized(0.62));
     c.put("bench", bench, at(-4.9, 0.0, 0.8).facing(90.0));
 }
 
@@ -118,8 +118,8 @@ fn walkers(c: &mut Composer) {
 }
 
 fn lights(c: &mut Composer) {
-    c.point_light("evening sun", [7.4, 7.2, 6.2], [1.0, 0.66, 0.36], 330.0, 24.0);
-    c.point_light("sky", [-4.0, 9.0, 6.0], [0.36, 0.52, 1.0], 120.0, 22.0);
+    c.point_light("evening sun", [7.2, 6.6, 7.4], [1.0, 0.66, 0.36], 330.0, 24.0);
+    c.point_light("sky", [-5.2, 8.6, -3.2], [0.36, 0.52, 1.0], 150.0, 22.0);
     // The lantern hangs from the gallery's ceiling and swings about its hook.
     let hook = c.group("lantern", None, at(-3.6, GALLERY + 3.9, BACK - 1.45));
     c.swings(hook, 3.4, DVec3::new(0.8, 0.0, 0.6), 9.0);

@@ -18,13 +18,13 @@ pub(super) fn build() -> Result<Scene, ImportError> {
     c.put("sphere", ivory, at(0.0, 0.8, 0.0).sized(1.6));
 
     let cube = c.prop("bevelled cube");
-    let ring = c.group("cubes", None, at(0.0, 1.75, 0.0));
+    let ring = c.group("cubes", None, at(0.0, 1.85, 0.0));
     c.turns(ring, 24.0, 24, |turns| DQuat::from_rotation_y(turns * std::f64::consts::TAU));
     let colors = [[0.66, 0.13, 0.07], [0.72, 0.42, 0.06], [0.05, 0.36, 0.34], [0.10, 0.17, 0.52]];
     for (i, color) in colors.into_iter().enumerate() {
         let paint = c.tinted(cube, color, 0.5);
-        let turns = i as f64 / 4.0 + 0.07;
-        let p = circle(DVec3::ZERO, 1.65, turns);
+        let turns = i as f64 / 4.0 + 0.125;
+        let p = circle(DVec3::ZERO, 1.5, turns);
         let lift = [0.0, 0.35, -0.15, 0.2][i];
         let name = ["red cube", "yellow cube", "green cube", "blue cube"][i];
         let node = c.put_on(Some(ring), name, paint, at(p.x, p.y + lift, p.z).facing(turns * 360.0 + 20.0).sized(0.78));
@@ -35,14 +35,14 @@ pub(super) fn build() -> Result<Scene, ImportError> {
         });
     }
 
-    let lamp = c.group("lamp", None, at(-2.0, 5.0, 1.2));
-    c.light(lamp, LightKind::Point, [1.0, 0.93, 0.82], 62.0, 16.0);
-    c.moves(lamp, 10.0, 32, |turns| circle(DVec3::new(-1.4, 5.0, 1.2), 0.6, turns));
+    let lamp = c.group("lamp", None, at(-3.0, 4.5, 2.8));
+    c.light(lamp, LightKind::Point, [1.0, 0.93, 0.82], 85.0, 18.0);
+    c.moves(lamp, 10.0, 32, |turns| circle(DVec3::new(-3.35, 4.5, 2.8), 0.35, turns));
     let flame = c.prop("flame");
     let glow = c.glowing(flame, [1.0, 0.93, 0.82]);
     c.put_on(Some(lamp), "bulb", glow, at(0.0, 0.0, 0.0).sized(1.5));
 
-    c.camera("front", [4.3, 3.3, 5.6], [0.0, 0.85, 0.1], 42.0);
+    c.camera("front", [0.9, 3.7, 6.9], [0.0, 1.05, 0.0], 40.0);
     c.camera("low", [-4.6, 0.7, 3.6], [0.2, 1.2, -0.2], 50.0);
     c.camera("above", [0.4, 8.2, 3.4], [0.0, 0.4, 0.0], 45.0);
     Ok(c.finish())

@@ -10,9 +10,9 @@ use crate::scene::{LightKind, Scene};
 
 pub(super) fn build() -> Result<Scene, ImportError> {
     let mut c = Composer::new("eye-in-shadow", &[FLOORS, ARCHITECTURE, CUTOUT, FURNITURE, SOLIDS, WALKER])?;
-    c.environment([0.060, 0.070, 0.105], [0.040, 0.040, 0.050], [0.020, 0.034, 0.085], [0.13, 0.105, 0.12]);
+    c.environment([0.080, 0.092, 0.135], [0.060, 0.058, 0.066], [0.020, 0.034, 0.085], [0.13, 0.105, 0.12]);
 
-    let floor = c.prop("marble");
+    let floor = c.prop("paving");
     c.put("floor", floor, at(0.0, 0.0, 0.0));
 
     // The disc rests on its socle; the light stands behind it, the eye before it.
@@ -30,11 +30,11 @@ pub(super) fn build() -> Result<Scene, ImportError> {
         }
     }
     let arcade = c.prop("arcade 6");
-    c.put("arcade", arcade, at(0.0, 0.0, -10.6));
+    c.put("arcade", arcade, at(0.0, 0.0, -12.2));
     let wall = c.prop("wall 6");
-    c.put("wall", wall, at(0.0, -1.2, -11.8));
+    c.put("wall", wall, at(0.0, -2.2, -13.6));
     for k in -3..=3 {
-        c.put(&format!("pillar {k}"), column, at(f64::from(k) * 2.4, 0.0, -10.6));
+        c.put(&format!("pillar {k}"), column, at(f64::from(k) * 2.4, 0.0, -12.2));
     }
     let (pot, cypress, urn) = (c.prop("pot"), c.prop("cypress"), c.prop("urn"));
     for (side, x) in [("left", -2.9), ("right", 2.9)] {
@@ -48,12 +48,12 @@ pub(super) fn build() -> Result<Scene, ImportError> {
     c.walks(walker, 14, |turns| circle(DVec3::new(0.0, 0.0, -2.2), radius, turns + 0.60));
 
     let lamp = c.group("lamp", None, at(0.0, 3.7, -8.2));
-    c.light(lamp, LightKind::Point, [1.0, 0.76, 0.46], 120.0, 24.0);
+    c.light(lamp, LightKind::Point, [1.0, 0.76, 0.46], 210.0, 26.0);
     c.moves(lamp, 12.0, 32, |turns| circle(DVec3::new(0.0, 3.7, -8.2), 0.25, turns + 0.25));
     let flame = c.prop("flame");
     let glow = c.glowing(flame, [1.0, 0.80, 0.52]);
     c.put_on(Some(lamp), "bulb", glow, at(0.0, 0.0, 0.0).sized(3.0));
-    c.point_light("evening sky", [-5.0, 6.5, 9.5], [0.42, 0.55, 1.0], 42.0, 26.0);
+    c.point_light("evening sky", [-5.0, 6.5, 9.5], [0.42, 0.55, 1.0], 80.0, 28.0);
 
     c.camera("in shadow", [0.0, 1.55, 6.2], [0.0, 2.25, -3.0], 52.0);
     c.camera("beside", [8.6, 3.6, 5.2], [0.0, 1.6, -3.4], 46.0);

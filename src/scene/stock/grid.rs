@@ -13,9 +13,10 @@ pub(super) fn build() -> Result<Scene, ImportError> {
     let mut c = Composer::new("grid", &[SOLIDS, FLOORS, ARCHITECTURE, FURNITURE])?;
     c.environment([0.050, 0.060, 0.085], [0.03, 0.03, 0.035], [0.012, 0.018, 0.040], [0.050, 0.058, 0.085]);
 
-    let floor = c.prop("marble");
+    let floor = c.prop("paving");
     c.put("floor", floor, at(0.0, 0.0, 0.0));
     let seats = c.prop("amphitheatre");
+    let seats = c.tinted(seats, [0.50, 0.44, 0.36], 0.9);
     c.put("seats", seats, at(0.0, 0.0, 0.0));
 
     let cube = c.prop("cube");
@@ -31,7 +32,7 @@ pub(super) fn build() -> Result<Scene, ImportError> {
 
     // It stays in the lanes between the layers and columns: never inside a cube.
     let lamp = c.group("lamp", None, at(0.0, 0.9 + PITCH / 2.0, 0.0));
-    c.light(lamp, LightKind::Point, [1.0, 0.84, 0.60], 55.0, 15.0);
+    c.light(lamp, LightKind::Point, [1.0, 0.84, 0.60], 46.0, 15.0);
     c.moves(lamp, 20.0, 80, |turns| {
         let (sin, cos) = (turns * std::f64::consts::TAU).sin_cos();
         let (sin2, _) = (turns * 2.0 * std::f64::consts::TAU).sin_cos();
@@ -42,9 +43,9 @@ pub(super) fn build() -> Result<Scene, ImportError> {
     c.put_on(Some(lamp), "bulb", glow, at(0.0, 0.0, 0.0).sized(2.2));
 
     let moon = c.looking("moon", [6.0, 12.0, 9.0], [0.0, 0.0, 0.0]);
-    c.light(moon, LightKind::Directional, [0.45, 0.62, 1.0], 0.42, f32::INFINITY);
+    c.light(moon, LightKind::Directional, [0.45, 0.62, 1.0], 0.55, f32::INFINITY);
 
-    c.camera("stage", [2.6, 5.3, 11.2], [0.0, 1.4, -1.2], 46.0);
+    c.camera("stage", [2.4, 5.6, 10.2], [0.0, 1.55, -0.9], 45.0);
     c.camera("seats", [-7.9, 4.6, -5.4], [0.4, 1.3, 0.8], 55.0);
     c.camera("inside", [0.65, 1.55, 4.6], [-0.9, 1.9, -4.0], 62.0);
     Ok(c.finish())
