@@ -13,8 +13,8 @@ use crate::scene::{Camera, Environment, Light, LightKind, Node, Pose, Scene, Tra
 /// Metres from the origin, and in size: beyond, single-precision arithmetic on squares of lengths ends.
 const FARTHEST: f64 = 1e12;
 /// Where the scene is lit from, seen from its middle.
-const KEY_SIDE: DVec3 = DVec3::new(0.55, 0.9, 0.6);
-const FILL_SIDE: DVec3 = DVec3::new(-0.8, 0.6, 0.35);
+const KEY_SIDE: DVec3 = DVec3::new(-0.8, 1.0, 0.65);
+const FILL_SIDE: DVec3 = DVec3::new(0.8, 0.5, 0.7);
 /// The irradiance that looks well lit at exposure 1: a white surface then shines with 0.8 of white.
 const GOOD_IRRADIANCE: f64 = 0.8 * PI;
 /// An exposure beyond these is a mistake in the file, not a bright lamp.
@@ -90,8 +90,8 @@ pub(super) fn add_node(scene: &mut Scene, name: &str, eye: DVec3, target: DVec3)
     scene.nodes.len() - 1
 }
 
-/// A warm key light above to the right, which throws the shadows, and a faint cool one from the
-/// other side, so that what it does not reach has a shape too.
+/// A warm key light above to the left, which throws its shadows beside things as the camera sees them,
+/// and a faint cool one from the other side, so that what it does not reach has a shape too.
 fn add_lights(scene: &mut Scene, center: DVec3, radius: f64) {
     let distance = 2.4 * radius;
     let node = add_node(scene, "key light", center + KEY_SIDE.normalize() * distance, center);
@@ -109,7 +109,7 @@ fn add_lights(scene: &mut Scene, center: DVec3, radius: f64) {
         node,
         kind: LightKind::Directional,
         color: Vec3::new(0.75, 0.86, 1.0),
-        intensity: (0.15 * GOOD_IRRADIANCE) as f32,
+        intensity: (0.25 * GOOD_IRRADIANCE) as f32,
         range: f32::INFINITY,
     });
 }
