@@ -123,6 +123,11 @@ fn click(harness: &mut Harness<'_, Bench>, label: &str) {
     harness.run_steps(3);
 }
 
+fn choose(harness: &mut Harness<'_, Bench>, label: &str) {
+    harness.get_by_role_and_label(Role::RadioButton, label).click();
+    harness.run_steps(3);
+}
+
 fn press(harness: &mut Harness<'_, Bench>, key: Key) {
     harness.key_press(key);
     harness.run_steps(2);
@@ -141,7 +146,7 @@ fn camera(bench: &Bench) -> Camera {
 fn each_technique_changes_just_the_technique() {
     let mut harness = open(Bench::new());
     for row in TABLE.iter().rev() {
-        click(&mut harness, row.title);
+        choose(&mut harness, row.title);
         assert_eq!(settings(&harness), Settings { technique: row.technique, ..Settings::default() });
         assert!(harness.query_by_label_contains(row.about).is_some(), "{} is explained", row.title);
     }
@@ -165,6 +170,8 @@ fn samples_and_switches_change_themselves() {
     assert_eq!(settings(&harness), Settings { samples: 4, ..Settings::default() });
     click(&mut harness, "1 a pixel");
     assert_eq!(settings(&harness), Settings::default());
+    harness.get_by_label("File").click();
+    harness.run_steps(5);
     harness.get_by_label("Smooth terminator").click();
     harness.get_by_label("Floor beneath a file's scene").click();
     harness.run_steps(3);
@@ -216,6 +223,8 @@ fn recent_files_open_again() {
     let mut bench = Bench::new();
     bench.preferences.opened("/models/duck.glb".as_ref());
     let mut harness = open(bench);
+    harness.get_by_label("File").click();
+    harness.run_steps(5);
     click(&mut harness, "Recent files");
     click(&mut harness, "duck.glb");
     assert_eq!(harness.state().actions, [Action::Open(SceneChoice::File("/models/duck.glb".into()))]);

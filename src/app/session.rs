@@ -262,7 +262,7 @@ mod tests {
         assert!(!open(&mut session, good.clone(), Ok(())));
         assert_eq!(session.settings.scene, good);
         let SceneChoice::File(path) = &good else { unreachable!() };
-        assert_eq!(session.preferences.recent, [path.clone()]);
+        assert_eq!(&session.preferences.recent, std::slice::from_ref(path));
         session.settings.camera = CameraChoice::Named("0".into());
         let before = session.settings.clone();
 

@@ -155,7 +155,7 @@ impl Panel {
         if desk.preferences.panel {
             let frame =
                 egui::Frame::new().fill(style::PANEL).inner_margin(egui::Margin { left: 12, right: 6, top: 8, bottom: 4 });
-            egui::Panel::left("panel").default_size(318.0).size_range(280.0..=460.0).frame(frame).show(ui, |ui| {
+            egui::Panel::left("panel").default_size(334.0).size_range(280.0..=460.0).frame(frame).show(ui, |ui| {
                 self.header(ui, view, &mut actions);
                 egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
                     // Room for the scroll bar.
@@ -205,9 +205,9 @@ impl Panel {
 
     fn sections(&mut self, ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>, actions: &mut Vec<Action>) {
         style::section(ui, "Scene", true, |ui| scene::scene(ui, self, desk, view, actions));
+        style::section(ui, "Frame", true, |ui| numbers::numbers(ui, desk, view));
         style::section(ui, "Technique", true, |ui| technique::techniques(ui, desk));
         style::section(ui, "Show", true, |ui| technique::show(ui, desk, view));
-        style::section(ui, "Frame", true, |ui| numbers::numbers(ui, desk, view));
         style::section(ui, "Lights", true, |ui| lights::lights(ui, self, desk, view));
         style::section(ui, "Camera", true, |ui| camera::camera(ui, desk, view));
         style::section(ui, "Time", true, |ui| time::time(ui, desk, view));

@@ -118,7 +118,7 @@ fn graph(ui: &mut Ui, history: &History) {
     line(&|frame| frame.gpu_ms, style::GOOD);
     line(&|frame| Some(frame.cpu_ms), style::ACCENT);
     let font = egui::FontId::monospace(10.0);
-    painter.text(rect.left_top() + vec2(5.0, 3.0), egui::Align2::LEFT_TOP, format!("{top} ms"), font, style::WEAK);
+    painter.text(rect.left_top() + vec2(5.0, 3.0), egui::Align2::LEFT_TOP, format!("{top:.0} ms"), font, style::WEAK);
     response.on_hover_text("Milliseconds a frame: the CPU's share in amber, the GPU's in blue");
 }
 

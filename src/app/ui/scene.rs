@@ -5,15 +5,17 @@ use std::path::PathBuf;
 use egui::{Key, RichText, Ui};
 
 use super::style::{self, card, explain};
+use super::technique::capital;
 use super::{Action, Desk, Panel, View};
 use crate::settings::SceneChoice;
 
 /// Scenes and files.
 pub fn scene(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_>, actions: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
+        style::tight(ui);
         for stock in view.stock {
             let chosen = matches!(&desk.settings.scene, SceneChoice::Stock(name) if name == stock.name);
-            if ui.selectable_label(chosen, stock.name).on_hover_text(stock.about).clicked() {
+            if ui.add(egui::Button::selectable(chosen, stock.name)).on_hover_text(stock.about).clicked() {
                 actions.push(Action::Open(SceneChoice::Stock(stock.name.into())));
             }
         }
@@ -21,7 +23,7 @@ pub fn scene(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_
     match &desk.settings.scene {
         SceneChoice::Stock(name) => {
             if let Some(stock) = view.stock.iter().find(|stock| stock.name == name) {
-                explain(ui, stock.about);
+                explain(ui, format!("{}.", capital(stock.about).trim_end_matches('.')));
             }
         }
         SceneChoice::File(path) => {
@@ -34,15 +36,7 @@ pub fn scene(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_
             ui.label(format!("Opening {name} ..."));
         });
     }
-    path_field(ui, panel, actions);
-    ui.horizontal(|ui| {
-        recent(ui, desk, actions);
-        if ui.button("Reload").on_hover_text("Read the scene again (F5)").clicked() {
-            actions.push(Action::Reload);
-        }
-    });
-    ui.checkbox(&mut desk.settings.floor, "Floor beneath a file's scene")
-        .on_hover_text("Adds a large floor under scenes opened from a file, so that shadows have something to fall on");
+    files(ui, panel, desk, actions);
     if let Some(scene) = view.scene
         && !scene.warnings.is_empty()
     {
@@ -66,13 +60,32 @@ pub fn scene(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_
     }
 }
 
+/// Opening files, folded away until somebody wants to.
+fn files(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, actions: &mut Vec<Action>) {
+    let fold = egui::CollapsingHeader::new("File").id_salt("file").default_open(false).open(panel.focus_path.then_some(true));
+    let response = fold.show(ui, |ui| {
+        path_field(ui, panel, actions);
+        ui.horizontal(|ui| {
+            recent(ui, desk, actions);
+            if ui.button("Reload").on_hover_text("Read the scene again (F5)").clicked() {
+                actions.push(Action::Reload);
+            }
+        });
+        ui.checkbox(&mut desk.settings.floor, "Floor beneath a file's scene")
+            .on_hover_text("Adds a large floor under the scene, so that shadows have something to fall on");
+    });
+    response.header_response.on_hover_text("Open a .glb or .gltf file; files can also be dropped on the window (Ctrl+O)");
+}
+
 fn path_field(ui: &mut Ui, panel: &mut Panel, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         let width = ui.available_width() - 60.0;
         let field = egui::TextEdit::singleline(&mut panel.path).hint_text("path of a .glb or .gltf file").desired_width(width);
         let response = ui.add(field).on_hover_text("Type or paste a path, then Enter. Files can also be dropped on the window.");
         style::name_it(&response, "Path");
-        if std::mem::take(&mut panel.focus_path) {
+        // The fold may still be opening; a field that is not shown takes no focus.
+        if panel.focus_path {
+            panel.focus_path = !response.has_focus();
             response.request_focus();
         }
         let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));

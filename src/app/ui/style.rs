@@ -90,6 +90,12 @@ pub fn section(ui: &mut Ui, title: &str, open: bool, contents: impl FnOnce(&mut 
     );
 }
 
+/// Less room around words, for rows of choices that should stay one row.
+pub fn tight(ui: &mut Ui) {
+    ui.spacing_mut().button_padding.x = 5.0;
+    ui.spacing_mut().item_spacing.x = 2.0;
+}
+
 /// A box on the panel.
 pub fn card<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
     let frame = egui::Frame::new().fill(CARD).corner_radius(CornerRadius::same(5)).inner_margin(Margin::symmetric(8, 6));

@@ -9,20 +9,28 @@ use crate::techniques::TABLE;
 
 /// The techniques, each with its sentence.
 pub fn techniques(ui: &mut Ui, desk: &mut Desk<'_>) {
-    for row in &TABLE {
+    ui.spacing_mut().item_spacing.y = 2.0;
+    for (index, row) in TABLE.iter().enumerate() {
         let chosen = desk.settings.technique == row.technique;
         let title = RichText::new(row.title).strong();
-        let response = ui.add(egui::Button::selectable(chosen, title).min_size(egui::vec2(ui.available_width(), 0.0)));
-        if response.on_hover_text(format!("{}\nSource: {}", row.about, row.source)).clicked() {
+        let title = if chosen { title.color(style::ACCENT) } else { title };
+        let response =
+            ui.radio(chosen, title).on_hover_text(format!("{}\nSource: {}\nKey: {}", row.about, row.source, index + 1));
+        if response.clicked() {
             desk.settings.technique = row.technique;
         }
-        explain(ui, row.about);
+        ui.horizontal(|ui| {
+            ui.add_space(ui.spacing().icon_width + ui.spacing().icon_spacing - 6.0);
+            explain(ui, row.about);
+        });
+        ui.add_space(3.0);
     }
 }
 
 /// What is shown, and of which light.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
     ui.horizontal_wrapped(|ui| {
+        style::tight(ui);
         for show in Show::ALL {
             let response = ui.selectable_label(desk.settings.show == show, capital(show.name()));
             if response.on_hover_text(show.about()).clicked() {
