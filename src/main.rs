@@ -3,7 +3,7 @@
 //! a failure, 2 wrong usage.
 
 use std::fmt::Display;
-use std::io::{self, Write as _};
+use std::io::{self, IsTerminal as _, Write as _};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -17,7 +17,7 @@ fn main() -> ExitCode {
     quiet_device_search();
     // Quiet unless asked: RUST_LOG=obscura=info, for example.
     let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("off"));
-    tracing_subscriber::fmt().with_env_filter(filter).with_writer(io::stderr).init();
+    tracing_subscriber::fmt().with_env_filter(filter).with_ansi(io::stderr().is_terminal()).with_writer(io::stderr).init();
 
     let parsed = match cli::parse(std::env::args_os()) {
         Ok(parsed) => parsed,

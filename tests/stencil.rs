@@ -25,13 +25,11 @@ fn cubes_over_floor(places: &[(f64, f64, f64)], half: f64) -> Build {
     build
 }
 
+/// Stencil values, what they must be where the rays agree, and how each volume was counted.
+type Measured = (Vec<u8>, Vec<Option<u8>>, Vec<(Method, Reason)>);
+
 /// The stencil of one light, and what it must be.
-fn measure(
-    stage: &mut Stage,
-    scene: &Scene,
-    settings: &Settings,
-    technique: Technique,
-) -> (Vec<u8>, Vec<Option<u8>>, Vec<(Method, Reason)>) {
+fn measure(stage: &mut Stage, scene: &Scene, settings: &Settings, technique: Technique) -> Measured {
     let settings = Settings { technique, show: Show::Stencil, ..settings.clone() };
     let shot = stage.shoot(&settings, scene);
     let expected = oracle::counts(scene, &shot.pose, &shot.plan.views[0].camera, settings.light, settings.size);

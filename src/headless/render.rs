@@ -24,17 +24,21 @@ pub fn render(settings: &Settings, out: &Path, measured: bool) -> Result<Report,
     let mut clock = Instant::now();
     let scene = open(settings)?;
     timings.open_ms = lap(&mut clock);
+    tracing::info!("opened {} in {:.1} ms", scene.name, timings.open_ms);
 
     let context = Context::headless(settings.adapter.as_deref())?;
     let mut renderer = Renderer::new(&context, settings.shaders.as_deref())?;
     renderer.set_scene(&context, &scene)?;
     timings.upload_ms = lap(&mut clock);
+    tracing::info!("uploaded it to {} in {:.1} ms", context.capabilities().adapter, timings.upload_ms);
 
     let (pose, plan) = director::stage(settings, &scene, context.capabilities())?;
     timings.plan_ms = lap(&mut clock);
+    tracing::info!("planned {} steps, {} volumes in {:.1} ms", plan.steps.len(), plan.volumes.len(), timings.plan_ms);
 
     let (mut frame, picture) = readback::picture(&context, &mut renderer, &plan, &scene, &pose)?;
     timings.first_frame_ms = lap(&mut clock);
+    tracing::info!("drew it in {:.1} ms, pipelines and read-back included", timings.first_frame_ms);
     if measured {
         (frame, _) = readback::picture(&context, &mut renderer, &plan, &scene, &pose)?;
         timings.second_frame_ms = lap(&mut clock);
