@@ -219,8 +219,8 @@ fn cape() -> Shape {
         (0.300, 1.03),
     ];
     let profile: Vec<DVec2> = outside.iter().chain(&inside).copied().map(DVec2::from).collect();
-    lathe(&profile, 36, |p, turns| p.x * (1.0 + 0.05 * ((1.42 - p.y) / 0.4).clamp(0.0, 1.0) * turn(turns * 9.0).x))
-        .map(|p| DVec3::new(p.x * 1.06, p.y, p.z * 0.76 + 0.005))
+    lathe(&profile, 36, |p, turns| p.x * (1.0 + 0.035 * ((1.42 - p.y) / 0.4).clamp(0.0, 1.0) * turn(turns * 9.0).x))
+        .map(|p| DVec3::new(p.x * 1.13, p.y, p.z * 0.90 + 0.005))
         .painted(|p| if p.y < 1.055 { [0.42, 0.25, 0.07] } else { [0.30, 0.035, 0.03] })
         .creased(0.6)
 }

@@ -101,7 +101,7 @@ pub fn gait(phase: f64) -> Stance {
     rotations[HEAD] = about(y, -5.0 * wave(1.0, 0.04)) * about(x, -3.5 + 1.2 * wave(2.0, 0.2));
     for (arm, side, shift) in [(LEFT_ARM, 1.0, 0.0), (RIGHT_ARM, -1.0, 0.5)] {
         let swing = wave(1.0, shift + 0.03);
-        rotations[arm] = about(x, 21.0 * swing - 3.0) * about(z, -15.0 * side);
+        rotations[arm] = about(x, 21.0 * swing - 3.0) * about(z, -18.0 * side);
         rotations[arm + 1] = about(x, -24.0 + 12.0 * wave(1.0, shift + 0.08));
     }
     for (thigh, shift) in [(LEFT_THIGH, 0.0), (RIGHT_THIGH, 0.5)] {

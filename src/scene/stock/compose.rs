@@ -25,6 +25,10 @@ macro_rules! model {
 /// A model file in the program.
 pub(super) type Model = (&'static str, &'static [u8]);
 
+/// All of them.
+#[cfg(test)]
+pub(super) const MODELS: [Model; 7] = [SOLIDS, TEAPOT, CUTOUT, FLOORS, ARCHITECTURE, FURNITURE, WALKER];
+
 pub(super) const SOLIDS: Model = model!("solids");
 pub(super) const TEAPOT: Model = model!("teapot");
 pub(super) const CUTOUT: Model = model!("cutout");
@@ -118,10 +122,7 @@ impl Composer {
     }
 
     /// The scene, done.
-    pub(super) fn finish(mut self) -> Scene {
-        for library in &self.libraries {
-            self.scene.warnings.extend(library.model.warnings.iter().cloned());
-        }
+    pub(super) fn finish(self) -> Scene {
         self.scene
     }
 

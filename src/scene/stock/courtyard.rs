@@ -128,6 +128,6 @@ fn lights(c: &mut Composer) {
     let (cage, flame, post) = (c.prop("cage"), c.prop("flame"), c.prop("post"));
     c.put_on(Some(flame_node), "cage", cage, at(0.0, 0.0, 0.0));
     c.put_on(Some(flame_node), "flame", flame, at(0.0, 0.0, 0.0));
-    // Its rod: the upper part of a lamp post, upside down, is too fancy; a thin straight one.
+    // A post, drawn thin, is its rod.
     c.put_on(Some(hook), "rod", post, at(0.0, -1.06, 0.0).stretched(0.12, 0.478, 0.12));
 }

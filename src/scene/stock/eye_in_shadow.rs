@@ -52,11 +52,11 @@ pub(super) fn build() -> Result<Scene, ImportError> {
     c.moves(lamp, 12.0, 32, |turns| circle(DVec3::new(0.0, 3.7, -8.2), 0.25, turns + 0.25));
     let flame = c.prop("flame");
     let glow = c.glowing(flame, [1.0, 0.80, 0.52]);
-    c.put_on(Some(lamp), "bulb", glow, at(0.0, 0.0, 0.0).sized(3.0));
+    c.put_on(Some(lamp), "bulb", glow, at(0.0, 0.0, 0.0).sized(1.7));
     c.point_light("evening sky", [-5.0, 6.5, 9.5], [0.42, 0.55, 1.0], 80.0, 28.0);
 
     c.camera("in shadow", [0.0, 1.55, 6.2], [0.0, 2.25, -3.0], 52.0);
     c.camera("beside", [8.6, 3.6, 5.2], [0.0, 1.6, -3.4], 46.0);
-    c.camera("towards the eye", [-2.6, 2.2, -7.6], [1.2, 1.3, 2.0], 55.0);
+    c.camera("towards the eye", [-5.6, 3.1, -10.2], [0.4, 1.9, -1.0], 52.0);
     Ok(c.finish())
 }

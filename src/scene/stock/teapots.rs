@@ -64,6 +64,6 @@ pub(super) fn build() -> Result<Scene, ImportError> {
 
     c.camera("front", [0.25, 2.55, 4.5], [0.1, 0.58, -0.2], 42.0);
     c.camera("close", [-1.1, 0.95, 3.3], [-0.05, 0.45, -0.4], 42.0);
-    c.camera("above", [0.3, 5.2, 3.4], [0.0, 0.2, -0.2], 46.0);
+    c.camera("side", [3.7, 1.75, 2.3], [0.0, 0.55, -0.4], 44.0);
     Ok(c.finish())
 }

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::TABLE;
-use super::compose::{STRIDE, STRIDE_SECONDS};
+use super::compose::{MODELS, STRIDE, STRIDE_SECONDS};
 use crate::scene::pose::pose;
 use crate::scene::{AnimationChoice, LightKind, Pose, Property, Scene};
 
@@ -49,6 +49,16 @@ fn names_are_unique_and_known() {
     let names: Vec<_> = TABLE.iter().map(|stock| stock.name).collect();
     assert_eq!(names, ["courtyard", "cubes", "teapots", "grid", "eye-in-shadow"]);
     assert!(super::build("courtyard").is_some() && super::build("nowhere").is_none());
+}
+
+#[test]
+fn models_import_without_complaint() {
+    for (name, bytes) in MODELS {
+        let model = crate::scene::gltf::load_embedded(name, bytes).unwrap();
+        // Models bring no lights: scenes do. The importer says what it put in their place.
+        let complaints: Vec<_> = model.warnings.iter().filter(|warning| !warning.contains("has no lights")).collect();
+        assert!(complaints.is_empty(), "{name}: {complaints:?}");
+    }
 }
 
 #[test]
