@@ -5,12 +5,14 @@
 
 mod gltf_files;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
 
 use gltf_files::{File, data_uri, png, shared};
-use obscura::scene::gltf::{load, load_bytes};
-use obscura::scene::{OpenError, Scene, open};
+use obscura::scene::gltf::{add_floor, load, load_bytes};
+use obscura::scene::pose::pose;
+use obscura::scene::{AnimationChoice, OpenError, Scene, doctor, open};
 use obscura::settings::SceneChoice;
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -33,6 +35,16 @@ fn raw(text: &[u8]) -> String {
 
 fn at(path: &Path) -> String {
     told(&path.display().to_string(), load(path))
+}
+
+/// What the program does with a scene once it has one; nothing of that may fail either.
+fn used(mut scene: Scene) {
+    add_floor(&mut scene);
+    assert!(!doctor::report(&scene).to_string().is_empty());
+    for time in [0.0, 0.3, 1e9] {
+        let posed = pose(&scene, time, AnimationChoice::All, &BTreeMap::new());
+        assert_eq!(posed.world_from_node.len(), scene.nodes.len());
+    }
 }
 
 /// A file with a bit of everything, small enough to be broken in every place.
@@ -183,7 +195,10 @@ fn every_value_replaced_by_every_bad_one() {
             let mut broken = whole.clone();
             *broken.json.pointer_mut(place).unwrap() = bad.clone();
             match load_bytes("test", &broken.glb()) {
-                Ok(_) => imported += 1,
+                Ok(scene) => {
+                    used(scene);
+                    imported += 1;
+                }
                 Err(error) => assert_eq!(error.to_string().lines().count(), 1, "{place} = {bad}: {error}"),
             }
         }
@@ -201,7 +216,7 @@ proptest! {
             let place = place.index(bytes.len());
             bytes[place] = byte;
         }
-        let _ = load_bytes("test", &bytes);
+        let _ = load_bytes("test", &bytes).map(used);
     }
 
     #[test]
@@ -214,7 +229,7 @@ proptest! {
             let place = numbers[place.index(numbers.len())].clone();
             *file.json.pointer_mut(&place).unwrap() = json!(number >> shift);
         }
-        let _ = load_bytes("test", &file.glb());
+        let _ = load_bytes("test", &file.glb()).map(used);
     }
 
     #[test]
@@ -222,7 +237,7 @@ proptest! {
         let mut file = everything();
         let length = bytes.len().min(file.binary.len());
         file.binary[..length].copy_from_slice(&bytes[..length]);
-        let _ = load_bytes("test", &file.glb());
+        let _ = load_bytes("test", &file.glb()).map(used);
     }
 
     #[test]
