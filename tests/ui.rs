@@ -393,7 +393,7 @@ fn errors_show_and_go() {
 #[test]
 fn importer_notes_are_there_to_unfold() {
     let mut harness = open(Bench::new());
-    harness.get_by_label("Import: 1 notes").click();
+    harness.get_by_label("Import: 1 note").click();
     harness.run_steps(5);
     assert!(harness.query_by_label_contains("material `glass`").is_some());
 }

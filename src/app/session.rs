@@ -1,6 +1,6 @@
 //! What is shown, without the window: settings, scene, notices, and the last frame's plan.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::ui::{self, Action, History, Notice, Panel, Tone, Topic, View};
 use super::{WindowOptions, photo, store};
@@ -10,6 +10,9 @@ use crate::scene::open::{Loading, load_on_thread};
 use crate::scene::{Pose, Scene, doctor, stock};
 use crate::settings::{SceneChoice, Settings};
 use store::{Preferences, Store};
+
+/// How long good news stay.
+const GOOD_NEWS: Duration = Duration::from_secs(8);
 
 /// The scene that is drawn.
 pub(super) struct Loaded {
@@ -46,6 +49,8 @@ pub(super) struct Session {
     /// What the last picture was drawn from, or tried to be.
     pub drawn_from: Option<Settings>,
     notices: Vec<Notice>,
+    /// When good news go by themselves.
+    passing: Vec<(Topic, Instant)>,
     opening: Option<Opening>,
 }
 
@@ -66,6 +71,7 @@ impl Session {
             drawn: None,
             drawn_from: None,
             notices: Vec::new(),
+            passing: Vec::new(),
             opening: None,
         };
         if let Some(note) = note {
@@ -83,11 +89,24 @@ impl Session {
             Tone::Error => tracing::error!("{words}"),
         }
         self.dismiss(topic);
+        if tone == Tone::Good {
+            self.passing.push((topic, Instant::now() + GOOD_NEWS));
+        }
         self.notices.push(Notice { topic, tone, words });
     }
 
     pub fn dismiss(&mut self, topic: Topic) {
         self.notices.retain(|notice| notice.topic != topic);
+        self.passing.retain(|(passing, _)| *passing != topic);
+    }
+
+    /// Takes good news away that everybody has read; gives when the next will go.
+    pub fn forget_old_news(&mut self, now: Instant) -> Option<Instant> {
+        let old: Vec<_> = self.passing.iter().filter(|(_, end)| *end <= now).map(|(topic, _)| *topic).collect();
+        for topic in old {
+            self.dismiss(topic);
+        }
+        self.passing.iter().map(|(_, end)| *end).min()
     }
 
     /// What the panel shows; settings, preferences and panel itself stay free to be changed.
@@ -298,5 +317,11 @@ mod tests {
         session.notice(Topic::Picture, Tone::Good, "three");
         let words: Vec<_> = session.notices.iter().map(|notice| notice.words.as_str()).collect();
         assert_eq!(words, ["two", "three"]);
+        let now = Instant::now();
+        assert!(session.forget_old_news(now).is_some_and(|end| end > now));
+        assert_eq!(session.notices.len(), 2);
+        assert_eq!(session.forget_old_news(now + GOOD_NEWS), None);
+        assert_eq!(session.notices[0].words, "two", "errors stay");
+        assert_eq!(session.notices.len(), 1);
     }
 }

@@ -219,6 +219,9 @@ impl Shell {
             self.session.notice(Topic::Device, Tone::Error, format!("The graphics device reports: {words}"));
         }
         self.session.advance(elapsed);
+        if let Some(when) = self.session.forget_old_news(now) {
+            self.pace.want(when);
+        }
 
         let (painted, outcome, mut textures) = run_panel(live, &mut self.session, &mut self.pace, now, now - self.started);
         let Some(screen) = &mut live.screen else { return Ok(()) };

@@ -132,16 +132,19 @@ pub fn plan(ui: &mut Ui, view: &View<'_>) {
         card(ui, |ui| explain(ui, note.as_str()));
     }
     explain(ui, format!("{} steps, in this order:", plan.steps.len()));
-    let height = (plan.steps.len() as f32 * 30.0).min(260.0);
-    egui::ScrollArea::vertical().id_salt("steps").max_height(height).auto_shrink([false, true]).show(ui, |ui| {
-        for (index, step) in plan.steps.iter().enumerate() {
-            ui.horizontal_wrapped(|ui| {
-                ui.label(RichText::new(format!("{:>2}", index + 1)).monospace().color(style::WEAK));
-                ui.label(step.label.as_str());
-            });
-            explain(ui, step.why.as_str());
-        }
-    });
+    let height = (plan.steps.len() as f32 * 42.0).min(340.0);
+    egui::ScrollArea::vertical().id_salt("steps").max_height(height).min_scrolled_height(height).auto_shrink([false, true]).show(
+        ui,
+        |ui| {
+            for (index, step) in plan.steps.iter().enumerate() {
+                ui.horizontal_wrapped(|ui| {
+                    ui.label(RichText::new(format!("{:>2}", index + 1)).monospace().color(style::WEAK));
+                    ui.label(step.label.as_str());
+                });
+                explain(ui, step.why.as_str());
+            }
+        },
+    );
 }
 
 /// The device, what it lacks, and what replaces that.

@@ -40,13 +40,13 @@ pub fn scene(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_
     if let Some(scene) = view.scene
         && !scene.warnings.is_empty()
     {
-        egui::CollapsingHeader::new(RichText::new(format!("Import: {} notes", scene.warnings.len())).color(style::WARNING))
-            .id_salt("warnings")
-            .show(ui, |ui| {
-                for warning in &scene.warnings {
-                    explain(ui, format!("- {warning}"));
-                }
-            });
+        let count = scene.warnings.len();
+        let words = format!("Import: {count} note{}", if count == 1 { "" } else { "s" });
+        egui::CollapsingHeader::new(RichText::new(words).color(style::WARNING)).id_salt("warnings").show(ui, |ui| {
+            for warning in &scene.warnings {
+                explain(ui, format!("- {warning}"));
+            }
+        });
     }
     if !view.doctor.is_empty() {
         egui::CollapsingHeader::new("Mesh report").id_salt("doctor").show(ui, |ui| {
