@@ -94,6 +94,20 @@ fn casters_are_solid_but_for_the_teapots() {
 }
 
 #[test]
+fn casters_face_outwards() {
+    for (name, bytes) in MODELS {
+        let model = crate::scene::gltf::load_embedded(name, bytes).unwrap();
+        for (_, node, mesh) in model.instances().filter(|(_, node, mesh)| node.casts_shadow && mesh.topology.report().is_solid())
+        {
+            let corner = |i: u32| mesh.positions[i as usize].as_dvec3();
+            let six_volumes = |t: &[u32]| corner(t[0]).dot(corner(t[1]).cross(corner(t[2])));
+            let volume = mesh.indices.chunks_exact(3).map(six_volumes).sum::<f64>() / 6.0;
+            assert!(volume > 1e-4, "{name}: {} holds {volume} cubic metres", node.name);
+        }
+    }
+}
+
+#[test]
 fn movement_has_no_seam() {
     for scene in scenes() {
         for animation in &scene.animations {
