@@ -58,7 +58,8 @@ fn z_fail_and_exact_z_pass_hold_the_same_stencil_on_200_random_views() {
             let margin = (high - low) * 0.2;
             // Every third eye stands close to some caster's own box, so that near planes are crossed.
             let eye = if view % 3 == 0 {
-                let casters: Vec<_> = scene.instances().filter(|(_, node, _)| node.casts_shadow).map(|(index, ..)| index).collect();
+                let casters: Vec<_> =
+                    scene.instances().filter(|(_, node, _)| node.casts_shadow).map(|(index, ..)| index).collect();
                 let chosen = casters[(random.unit() * casters.len() as f64) as usize];
                 let near = posed.world_bounds(&scene, chosen);
                 random.between(near.min.as_dvec3() - 0.15, near.max.as_dvec3() + 0.15)

@@ -156,11 +156,23 @@ impl Context {
     /// # Errors
     /// The device does not answer, or is lost.
     pub fn wait(&self, submission: wgpu::SubmissionIndex) -> Result<(), GpuError> {
+        self.wait_for(Some(submission))
+    }
+
+    /// Waits for everything submitted so far, likewise.
+    ///
+    /// # Errors
+    /// The device does not answer, or is lost.
+    pub fn wait_idle(&self) -> Result<(), GpuError> {
+        self.wait_for(None)
+    }
+
+    fn wait_for(&self, submission_index: Option<wgpu::SubmissionIndex>) -> Result<(), GpuError> {
         if self.is_lost() {
             return Err(GpuError::Device("it was lost".into()));
         }
         let timeout = std::time::Duration::from_secs(30);
-        let wait = wgpu::PollType::Wait { submission_index: Some(submission), timeout: Some(timeout) };
+        let wait = wgpu::PollType::Wait { submission_index, timeout: Some(timeout) };
         self.device.poll(wait).map(|_| ()).map_err(|error| GpuError::Device(error.to_string()))
     }
 }
