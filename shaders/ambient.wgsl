@@ -3,7 +3,7 @@
 
 @fragment
 fn ambient(point: SurfacePoint, @builtin(front_facing) front: bool) -> @location(0) vec4f {
-    return vec4f(ambient_light(base_color(point).rgb, seen_normal(point, front)), 1.0);
+    return vec4f(ambient_light(base_color(point).rgb, seen_normal(point, front).y), 1.0);
 }
 
 @fragment
@@ -12,5 +12,5 @@ fn ambient_masked(point: SurfacePoint, @builtin(front_facing) front: bool) -> @l
     if base.a < material.cutoff {
         discard;
     }
-    return vec4f(ambient_light(base.rgb, seen_normal(point, front)), 1.0);
+    return vec4f(ambient_light(base.rgb, seen_normal(point, front).y), 1.0);
 }

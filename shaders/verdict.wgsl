@@ -5,9 +5,8 @@
 // already whether this step is the white or the black one.
 @fragment
 fn verdict(point: SurfacePoint) -> @location(0) vec4f {
-    let light = lights[draw.light];
-    let offset = light.position - point.world;
-    if light.kind != DIRECTIONAL && dot(offset, offset) * light.inverse_range_squared > 1.0 {
+    let offset = draw.light.position - point.world;
+    if draw.light.kind != DIRECTIONAL && dot(offset, offset) * draw.light.inverse_range_squared > 1.0 {
         discard;
     }
     return draw.constant;

@@ -119,7 +119,7 @@ pub fn plan(settings: &Settings, scene: &Scene, pose: &Pose, camera: Camera, cap
                 let unshadowed = count.steps.is_empty() && count.base == 0;
                 frame.extend(count.steps);
                 let stencil = if unshadowed { StencilState::IGNORE } else { StencilState::count_equals(frame.plan.budget) };
-                frame.extend(surfaces::lit(&groups, light, scissor, stencil));
+                frame.extend(surfaces::lit(&groups, light, pose.lights[light].kind.into(), scissor, stencil));
             }
             frame.extend(surfaces::transparent(scene, pose, &frame.plan.views[0], whole));
             match settings.show {

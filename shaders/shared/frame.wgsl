@@ -46,12 +46,11 @@ struct Volume {
     _pad2: u32,
 }
 
+// One step. The light is a copy in uniform memory: every pixel reads it, and uniform reads are
+// cheap where storage reads are not.
 struct Draw {
     constant: vec4f,
-    light: u32,
-    _pad0: u32,
-    _pad1: u32,
-    _pad2: u32,
+    light: Light,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

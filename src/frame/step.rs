@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::state::State;
+use crate::scene::LightKind;
 
 /// One entry of the plan, carried out in order.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -43,6 +44,8 @@ pub struct Clear {
 pub struct Draw {
     /// Which shaders.
     pub program: Program,
+    /// What of those shaders is needed.
+    pub look: Look,
     /// Where it draws to.
     pub target: Target,
     /// The whole fixed state.
@@ -57,6 +60,41 @@ pub struct Draw {
     pub constant: [f32; 4],
     /// What is drawn.
     pub set: DrawSet,
+}
+
+/// What a step's surfaces and light have, so that pixels pay for nothing else: the shaders are
+/// specialised for it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub struct Look {
+    /// Some material has a texture.
+    pub textured: bool,
+    /// Some material has a highlight.
+    pub glossy: bool,
+    /// The shape of the light.
+    pub light: LightShape,
+}
+
+/// The shape of a light, without its numbers.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LightShape {
+    /// From one point.
+    #[default]
+    Point,
+    /// From infinitely far away.
+    Directional,
+    /// A cone.
+    Spot,
+}
+
+impl From<LightKind> for LightShape {
+    fn from(kind: LightKind) -> Self {
+        match kind {
+            LightKind::Point => Self::Point,
+            LightKind::Directional => Self::Directional,
+            LightKind::Spot { .. } => Self::Spot,
+        }
+    }
 }
 
 /// Where a step draws to.

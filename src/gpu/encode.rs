@@ -116,7 +116,14 @@ fn load<T, C: Into<T>>(clear: Option<C>) -> wgpu::LoadOp<T> {
 
 impl Encode<'_> {
     fn key(&self, plan: &FramePlan, draw: &Draw) -> Key {
-        Key { program: draw.program, state: draw.state, target: draw.target, output: self.format, samples: plan.samples }
+        Key {
+            program: draw.program,
+            look: draw.look,
+            state: draw.state,
+            target: draw.target,
+            output: self.format,
+            samples: plan.samples,
+        }
     }
 
     fn begin<'e>(

@@ -121,11 +121,8 @@ impl FrameBuffers {
         scratch.lights.extend(pose.lights.iter().map(light));
         scratch.draws.clear();
         for (_, draw) in plan.draws() {
-            let uniform = Draw {
-                constant: draw.constant,
-                light: draw.light.and_then(|light| u32::try_from(light).ok()).unwrap_or(0),
-                _pad: [0; 3],
-            };
+            let light = draw.light.and_then(|light| scratch.lights.get(light)).copied().unwrap_or_default();
+            let uniform = Draw { constant: draw.constant, light };
             scratch.draws.extend_from_slice(bytemuck::bytes_of(&uniform));
             scratch.draws.resize(scratch.draws.len().next_multiple_of(DRAW_STRIDE as usize), 0);
         }

@@ -3,17 +3,19 @@
 use std::collections::HashMap;
 
 use super::context::{COLOR_FORMAT, Context, DEPTH_FORMAT, GpuError};
-use super::shaders::{Library, Vertices, entry_of};
+use super::shaders::{Library, Override, Vertices, entry_of};
 use super::types::{Attributes, Draw, Frame, Light, Material, Object, Volume};
 use crate::frame::state::{Blend, Compare, Cull, NearPlane, State, Winding};
 use crate::frame::stencil::{StencilFace, StencilOp};
-use crate::frame::{Program, Target};
+use crate::frame::{LightShape, Look, Program, Target};
 
 /// Everything a pipeline depends on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Key {
     /// Which shaders.
     pub program: Program,
+    /// What of them is needed.
+    pub look: Look,
     /// The whole fixed state.
     pub state: State,
     /// Where it draws to.
@@ -176,6 +178,9 @@ impl Pipelines {
             blend: key.state.color.and_then(blend),
             write_mask: if key.state.color.is_some() { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() },
         })];
+        let constants = constants(entry.overrides, key.look);
+        let compilation_options =
+            || wgpu::PipelineCompilationOptions { constants: &constants, ..wgpu::PipelineCompilationOptions::default() };
         let in_scene = key.target == Target::Scene;
         context.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(entry.fragment),
@@ -183,7 +188,7 @@ impl Pipelines {
             vertex: wgpu::VertexState {
                 module,
                 entry_point: Some(entry.vertex),
-                compilation_options: Default::default(),
+                compilation_options: compilation_options(),
                 buffers: vertex_buffers(entry.vertices),
             },
             primitive: wgpu::PrimitiveState {
@@ -208,13 +213,30 @@ impl Pipelines {
             fragment: Some(wgpu::FragmentState {
                 module,
                 entry_point: Some(entry.fragment),
-                compilation_options: Default::default(),
+                compilation_options: compilation_options(),
                 targets: &targets,
             }),
             multiview_mask: None,
             cache: None,
         })
     }
+}
+
+/// The values of a program's overrides.
+fn constants(overrides: &[Override], look: Look) -> Vec<(&'static str, f64)> {
+    let value = |it: Override| match it {
+        Override::Textured => ("TEXTURED", f64::from(u8::from(look.textured))),
+        Override::Glossy => ("GLOSSY", f64::from(u8::from(look.glossy))),
+        Override::LightKind => {
+            let kind = match look.light {
+                LightShape::Point => 0.0,
+                LightShape::Directional => 1.0,
+                LightShape::Spot => 2.0,
+            };
+            ("LIGHT_KIND", kind)
+        }
+    };
+    overrides.iter().map(|&it| value(it)).collect()
 }
 
 fn compile(context: &Context, library: &Library) -> Result<HashMap<&'static str, wgpu::ShaderModule>, GpuError> {

@@ -52,26 +52,51 @@ pub struct Entry {
     pub fragment: &'static str,
     /// What the vertex entry point reads.
     pub vertices: Vertices,
+    /// What is set when its pipeline is made.
+    pub overrides: &'static [Override],
 }
 
-const fn entry(program: Program, file: &'static str, vertex: &'static str, fragment: &'static str, vertices: Vertices) -> Entry {
-    Entry { program, file, vertex, fragment, vertices }
+/// The WGSL `override`s there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Override {
+    /// `TEXTURED`: the base colour texture is sampled.
+    Textured,
+    /// `GLOSSY`: highlights are computed.
+    Glossy,
+    /// `LIGHT_KIND`: the shape of the one light.
+    LightKind,
 }
+
+const fn entry(
+    program: Program,
+    file: &'static str,
+    vertex: &'static str,
+    fragment: &'static str,
+    vertices: Vertices,
+    overrides: &'static [Override],
+) -> Entry {
+    Entry { program, file, vertex, fragment, vertices, overrides }
+}
+
+/// What `shared/surface.wgsl` declares.
+const SURFACE: &[Override] = &[Override::Textured, Override::Glossy];
+/// And `lit.wgsl` beside it.
+const LIT: &[Override] = &[Override::Textured, Override::Glossy, Override::LightKind];
 
 /// Every program, in the order of the enum.
 pub const PROGRAMS: [Entry; 12] = [
-    entry(Program::Background, "background.wgsl", "full_screen_vertex", "background", Vertices::None),
-    entry(Program::Ambient, "ambient.wgsl", "surface_vertex", "ambient", Vertices::Surface),
-    entry(Program::AmbientMasked, "ambient.wgsl", "surface_vertex", "ambient_masked", Vertices::Surface),
-    entry(Program::Lit, "lit.wgsl", "surface_vertex", "lit", Vertices::Surface),
-    entry(Program::Volume, "volume.wgsl", "volume_vertex", "volume_count", Vertices::Volume),
-    entry(Program::VolumeGlass, "volume.wgsl", "volume_vertex", "volume_glass", Vertices::Volume),
-    entry(Program::Verdict, "verdict.wgsl", "surface_vertex", "verdict", Vertices::Surface),
-    entry(Program::Transparent, "transparent.wgsl", "surface_vertex", "transparent", Vertices::Surface),
-    entry(Program::Wireframe, "wireframe.wgsl", "wireframe_vertex", "wireframe", Vertices::Edges),
-    entry(Program::StencilColors, "output.wgsl", "full_screen_vertex", "stencil_colors", Vertices::None),
-    entry(Program::ToneMap, "output.wgsl", "full_screen_vertex", "tone_map", Vertices::None),
-    entry(Program::Copy, "output.wgsl", "full_screen_vertex", "copy", Vertices::None),
+    entry(Program::Background, "background.wgsl", "full_screen_vertex", "background", Vertices::None, &[]),
+    entry(Program::Ambient, "ambient.wgsl", "surface_vertex", "ambient", Vertices::Surface, SURFACE),
+    entry(Program::AmbientMasked, "ambient.wgsl", "surface_vertex", "ambient_masked", Vertices::Surface, SURFACE),
+    entry(Program::Lit, "lit.wgsl", "surface_vertex", "lit", Vertices::Surface, LIT),
+    entry(Program::Volume, "volume.wgsl", "volume_vertex", "volume_count", Vertices::Volume, &[]),
+    entry(Program::VolumeGlass, "volume.wgsl", "volume_vertex", "volume_glass", Vertices::Volume, &[]),
+    entry(Program::Verdict, "verdict.wgsl", "surface_vertex", "verdict", Vertices::Surface, SURFACE),
+    entry(Program::Transparent, "transparent.wgsl", "surface_vertex", "transparent", Vertices::Surface, SURFACE),
+    entry(Program::Wireframe, "wireframe.wgsl", "wireframe_vertex", "wireframe", Vertices::Edges, &[]),
+    entry(Program::StencilColors, "output.wgsl", "full_screen_vertex", "stencil_colors", Vertices::None, &[]),
+    entry(Program::ToneMap, "output.wgsl", "full_screen_vertex", "tone_map", Vertices::None, &[]),
+    entry(Program::Copy, "output.wgsl", "full_screen_vertex", "copy", Vertices::None, &[]),
 ];
 
 /// The entry of a program.

@@ -86,9 +86,7 @@ pub struct Draw {
     /// Linear RGBA.
     pub constant: [f32; 4],
     /// The light looked at.
-    pub light: u32,
-    #[doc(hidden)]
-    pub _pad: [u32; 3],
+    pub light: Light,
 }
 
 /// `struct Material` of `shared/surface.wgsl`.

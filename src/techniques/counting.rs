@@ -9,7 +9,9 @@ use super::Row;
 use crate::frame::plan::View;
 use crate::frame::state::{Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
-use crate::frame::{Action, Capabilities, Draw, DrawSet, Method, Part, Program, Reason, Step, Target, VolumePart, VolumePlan};
+use crate::frame::{
+    Action, Capabilities, Draw, DrawSet, Look, Method, Part, Program, Reason, Step, Target, VolumePart, VolumePlan,
+};
 use crate::geometry::eye_count::{EyeCount, holding_count};
 use crate::geometry::frustum::NearPyramid;
 use crate::geometry::light_in_object;
@@ -240,6 +242,7 @@ impl Group {
             view: 0,
             action: Action::Draw(Box::new(Draw {
                 program: Program::Volume,
+                look: Look::default(),
                 target: Target::Scene,
                 state: State {
                     depth: self.depth,

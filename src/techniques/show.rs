@@ -3,7 +3,7 @@
 use crate::frame::plan::VolumePlan;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::StencilState;
-use crate::frame::{Action, Draw, DrawSet, Method, Part, Program, Step, Target, VolumePart};
+use crate::frame::{Action, Draw, DrawSet, Look, Method, Part, Program, Step, Target, VolumePart};
 
 /// The gradient behind everything: drawn at infinity, so only where no surface is.
 #[must_use]
@@ -34,6 +34,7 @@ pub fn volumes(plans: &[VolumePlan], light: usize, scissor: [u32; 4]) -> Vec<Ste
             view: 0,
             action: Action::Draw(Box::new(Draw {
                 program: Program::VolumeGlass,
+                look: Look::default(),
                 target: Target::Scene,
                 state: State {
                     depth: Depth::NEARER,
@@ -63,6 +64,7 @@ pub fn wireframe(instances: usize, scissor: [u32; 4]) -> Step {
         view: 0,
         action: Action::Draw(Box::new(Draw {
             program: Program::Wireframe,
+            look: Look::default(),
             target: Target::Scene,
             state: State {
                 depth: Depth::ON_OR_NEARER,
@@ -127,6 +129,7 @@ fn full_screen(label: &str, why: &str, program: Program, target: Target, depth: 
         view: 0,
         action: Action::Draw(Box::new(Draw {
             program,
+            look: Look::default(),
             target,
             state: State {
                 depth,

@@ -1,54 +1,67 @@
 //! Steps that draw the scene's surfaces: ambient light, one light, blended ones, a light's verdict.
 //!
 //! Surfaces are grouped by the state they need: culled or drawn from both sides, wound straight or
-//! mirrored, masked or not. Most scenes have one group.
+//! mirrored, masked or not, with a texture or a highlight or without.
 
 use crate::frame::plan::View;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
-use crate::frame::{Action, Draw, DrawSet, Program, Step, Surface, Target};
+use crate::frame::{Action, Draw, DrawSet, LightShape, Look, Program, Step, Surface, Target};
 use crate::scene::{AlphaMode, Pose, Scene};
 
-/// Surfaces that share cull, winding and masking.
+/// Surfaces that share state and shader.
 #[derive(Debug)]
 pub struct SurfaceGroup {
+    kind: Kind,
+    surfaces: Vec<Surface>,
+}
+
+/// What decides the state and the shader a surface is drawn with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Kind {
     cull: Cull,
     winding: Winding,
     masked: bool,
-    surfaces: Vec<Surface>,
+    look: Look,
 }
 
 /// The scene's opaque and masked surfaces, grouped.
 #[must_use]
 pub fn opaque_groups(scene: &Scene, pose: &Pose, view: &View) -> Vec<SurfaceGroup> {
     let mut groups: Vec<SurfaceGroup> = Vec::new();
-    for (cull, winding, alpha, surface) in described(scene, pose, view) {
-        if alpha == AlphaMode::Blend {
-            continue;
-        }
-        let masked = alpha != AlphaMode::Opaque;
-        match groups.iter_mut().find(|group| group.cull == cull && group.winding == winding && group.masked == masked) {
-            Some(group) => group.surfaces.push(surface),
-            None => groups.push(SurfaceGroup { cull, winding, masked, surfaces: vec![surface] }),
+    for (kind, alpha, surface) in described(scene, pose, view) {
+        if alpha != AlphaMode::Blend {
+            match groups.iter_mut().find(|group| group.kind == kind) {
+                Some(group) => group.surfaces.push(surface),
+                None => groups.push(SurfaceGroup { kind, surfaces: vec![surface] }),
+            }
         }
     }
     groups
 }
 
-fn described<'a>(
-    scene: &'a Scene,
-    pose: &'a Pose,
-    view: &'a View,
-) -> impl Iterator<Item = (Cull, Winding, AlphaMode, Surface)> + 'a {
+fn described<'a>(scene: &'a Scene, pose: &'a Pose, view: &'a View) -> impl Iterator<Item = (Kind, AlphaMode, Surface)> + 'a {
     scene.instances().enumerate().flat_map(move |(instance, (node, _, mesh))| {
         let winding = view.winding.through(pose.world_from_object[node].matrix3.determinant());
         mesh.primitives.iter().enumerate().map(move |(primitive, part)| {
             let material = &scene.materials[part.material];
-            let cull = if material.double_sided { Cull::None } else { Cull::Back };
-            (cull, winding, material.alpha, Surface { instance, primitive })
+            let kind = Kind {
+                cull: if material.double_sided { Cull::None } else { Cull::Back },
+                winding,
+                masked: matches!(material.alpha, AlphaMode::Mask(_)),
+                look: Look {
+                    textured: material.base_color_texture.is_some(),
+                    glossy: material.roughness < MATT || material.metallic > 0.0,
+                    light: LightShape::default(),
+                },
+            };
+            (kind, material.alpha, Surface { instance, primitive })
         })
     })
 }
+
+/// Materials at least this rough, and without metal, get no highlight: it would not be seen.
+const MATT: f32 = 0.9;
 
 fn step(label: String, why: &str, draw: Draw) -> Step {
     Step { label, why: why.into(), view: 0, action: Action::Draw(Box::new(draw)) }
@@ -58,14 +71,15 @@ fn step(label: String, why: &str, draw: Draw) -> Step {
 #[must_use]
 pub fn ambient(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
     let draw = |group: &SurfaceGroup| Draw {
-        program: if group.masked { Program::AmbientMasked } else { Program::Ambient },
+        program: if group.kind.masked { Program::AmbientMasked } else { Program::Ambient },
+        look: group.kind.look,
         target: Target::Scene,
         state: State {
             depth: Depth::LAY,
             stencil: StencilState::IGNORE,
             color: Some(Blend::Replace),
-            cull: group.cull,
-            winding: group.winding,
+            cull: group.kind.cull,
+            winding: group.kind.winding,
             near_plane: NearPlane::Clip,
         },
         stencil_reference: 0,
@@ -80,9 +94,10 @@ pub fn ambient(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
 
 /// One light, added where its count is zero.
 #[must_use]
-pub fn lit(groups: &[SurfaceGroup], light: usize, scissor: [u32; 4], stencil: StencilState) -> Vec<Step> {
+pub fn lit(groups: &[SurfaceGroup], light: usize, shape: LightShape, scissor: [u32; 4], stencil: StencilState) -> Vec<Step> {
     let draw = |group: &SurfaceGroup| Draw {
         program: Program::Lit,
+        look: Look { light: shape, ..group.kind.look },
         target: Target::Scene,
         state: group.again(Blend::Add, stencil),
         stencil_reference: 0,
@@ -107,6 +122,7 @@ pub fn verdict(groups: &[SurfaceGroup], light: usize, scissor: [u32; 4], budget:
         for group in groups {
             let draw = Draw {
                 program: Program::Verdict,
+                look: Look::default(),
                 target: Target::Scene,
                 state: group.again(Blend::Replace, stencil),
                 stencil_reference: 0,
@@ -126,20 +142,19 @@ pub fn verdict(groups: &[SurfaceGroup], light: usize, scissor: [u32; 4], budget:
 pub fn transparent(scene: &Scene, pose: &Pose, view: &View, scissor: [u32; 4]) -> Vec<Step> {
     let nodes: Vec<_> = scene.instances().map(|(node, ..)| node).collect();
     let mut blended: Vec<_> = described(scene, pose, view)
-        .filter(|(_, _, alpha, _)| *alpha == AlphaMode::Blend)
-        .map(|(cull, winding, _, surface)| {
-            let node = nodes[surface.instance];
-            let center = pose.bounds(scene, node).transformed(&pose.world_from_object[node]).center();
-            (center.as_dvec3().distance_squared(view.camera.eye), cull, winding, surface)
+        .filter(|(_, alpha, _)| *alpha == AlphaMode::Blend)
+        .map(|(kind, _, surface)| {
+            let center = pose.world_bounds(scene, nodes[surface.instance]).center();
+            (center.as_dvec3().distance_squared(view.camera.eye), kind, surface)
         })
         .collect();
     blended.sort_by(|a, b| b.0.total_cmp(&a.0));
 
     let mut groups: Vec<SurfaceGroup> = Vec::new();
-    for (_, cull, winding, surface) in blended {
-        match groups.last_mut().filter(|group| group.cull == cull && group.winding == winding) {
+    for (_, kind, surface) in blended {
+        match groups.last_mut().filter(|group| group.kind == kind) {
             Some(group) => group.surfaces.push(surface),
-            None => groups.push(SurfaceGroup { cull, winding, masked: false, surfaces: vec![surface] }),
+            None => groups.push(SurfaceGroup { kind, surfaces: vec![surface] }),
         }
     }
     let why = "Blended surfaces, far to near, over the finished picture; they receive no shadows and cast none.";
@@ -150,13 +165,14 @@ pub fn transparent(scene: &Scene, pose: &Pose, view: &View, scissor: [u32; 4]) -
                 depth: Depth::NEARER,
                 stencil: StencilState::IGNORE,
                 color: Some(Blend::Over),
-                cull: group.cull,
-                winding: group.winding,
+                cull: group.kind.cull,
+                winding: group.kind.winding,
                 near_plane: NearPlane::Clip,
             };
             let label = format!("blended{}", group.words());
             let draw = Draw {
                 program: Program::Transparent,
+                look: group.kind.look,
                 target: Target::Scene,
                 state,
                 stencil_reference: 0,
@@ -177,17 +193,22 @@ impl SurfaceGroup {
             depth: Depth::SAME_SURFACE,
             stencil,
             color: Some(blend),
-            cull: self.cull,
-            winding: self.winding,
+            cull: self.kind.cull,
+            winding: self.kind.winding,
             near_plane: NearPlane::Clip,
         }
     }
 
     fn words(&self) -> String {
         let mut words = String::new();
-        for (there, word) in
-            [(self.cull == Cull::None, ", both sides"), (self.winding == Winding::Cw, ", mirrored"), (self.masked, ", masked")]
-        {
+        let kind = &self.kind;
+        for (there, word) in [
+            (kind.cull == Cull::None, ", both sides"),
+            (kind.winding == Winding::Cw, ", mirrored"),
+            (kind.masked, ", masked"),
+            (kind.look.textured, ", textured"),
+            (kind.look.glossy, ", glossy"),
+        ] {
             if there {
                 words.push_str(word);
             }
