@@ -17,15 +17,19 @@ fn tone_curve(linear: vec3f) -> vec3f {
         return color;
     }
     let room = 1.0 - start;
-    let new_peak = 1.0 - room * room / (peak + room - start);
+    let sum = peak + room - start;
+    let scale = (sum - room * room) / (peak * sum);
+    let new_peak = peak * scale;
     let bleach = 1.0 - 1.0 / (desaturation * (peak - new_peak) + 1.0);
-    return mix(color * (new_peak / peak), vec3f(new_peak), bleach);
+    return mix(color * scale, vec3f(new_peak), bleach);
 }
 
 @fragment
 fn tone_map(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let linear = textureLoad(scene_color, vec2i(pixel.xy), 0).rgb * frame.exposure;
-    return vec4f(tone_curve(linear), 1.0);
+    let scene = textureLoad(scene_color, vec2i(pixel.xy), 0);
+    // Where no surface is, or only blended ones, the gradient behind everything shows.
+    let behind = mix(frame.background_top, frame.background_bottom, pixel.y / frame.size.y) * (1.0 - scene.a);
+    return vec4f(tone_curve(scene.rgb * frame.exposure + behind), 1.0);
 }
 
 // Display values, 0 to 1 as the picture stores them, go through unchanged: the target's format

@@ -106,9 +106,8 @@ pub fn plan(settings: &Settings, scene: &Scene, pose: &Pose, camera: Camera, cap
                 }
             }
             let mut stored = lights.first().map_or(0, |(_, _, count)| count.base);
-            frame.clear_all([0.0, 0.0, 0.0, 1.0], stored);
+            frame.clear_all([0.0; 4], stored);
             frame.extend(surfaces::ambient(&groups, whole));
-            frame.push(show::background(whole));
             let mut counted = false;
             for (light, scissor, count) in lights {
                 if counted || count.base != stored {

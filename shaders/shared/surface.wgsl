@@ -5,6 +5,7 @@
 
 override TEXTURED: bool = true;
 override GLOSSY: bool = true;
+override BOTH_SIDES: bool = true;
 
 struct Material {
     base_color: vec4f,          // linear, with alpha
@@ -58,7 +59,10 @@ fn base_color(point: SurfacePoint) -> vec4f {
 
 // Towards the side that is seen; not unit.
 fn seen_normal(point: SurfacePoint, front: bool) -> vec3f {
-    return select(-point.normal, point.normal, front);
+    if BOTH_SIDES {
+        return select(-point.normal, point.normal, front);
+    }
+    return point.normal;
 }
 
 // `up` is the height of the unit normal: 1 looks up, -1 down.

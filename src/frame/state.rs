@@ -47,8 +47,6 @@ impl Depth {
     /// Light caps whose own surface is surely in the depth buffer: they can never be nearer, so the
     /// test that would decide by equality is not asked (DESIGN section 4).
     pub const NEVER: Self = Self { compare: Compare::Never, write: false };
-    /// Things at infinity: only where no surface laid depth.
-    pub const NOTHING_THERE: Self = Self { compare: Compare::Equal, write: false };
     /// Full-screen steps: depth has no say.
     pub const IGNORE: Self = Self { compare: Compare::Always, write: false };
 }

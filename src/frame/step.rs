@@ -111,8 +111,6 @@ pub enum Target {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Program {
-    /// Full screen: the gradient behind everything.
-    Background,
     /// Surfaces in ambient and emitted light.
     Ambient,
     /// The same, with fragments below the alpha cutoff left out.
@@ -131,7 +129,7 @@ pub enum Program {
     Wireframe,
     /// Full screen: the stencil in false colour.
     StencilColors,
-    /// Full screen: exposure and tone curve.
+    /// Full screen: the gradient behind everything, exposure and tone curve.
     ToneMap,
     /// Full screen: display values as they are.
     Copy,

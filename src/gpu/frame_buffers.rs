@@ -241,8 +241,8 @@ fn frame(plan: &FramePlan, scene: &Scene, pose: &Pose) -> Frame {
         smooth_terminator: f32::from(u8::from(plan.smooth_terminator)),
         ambient_ground: scene.environment.ambient_ground.to_array(),
         light_count: u32::try_from(pose.lights.len()).unwrap_or(u32::MAX),
-        background_top: (scene.environment.background[0] / plan.exposure).to_array(),
-        background_bottom: (scene.environment.background[1] / plan.exposure).to_array(),
+        background_top: scene.environment.background[0].to_array(),
+        background_bottom: scene.environment.background[1].to_array(),
         size,
         ..Frame::default()
     }

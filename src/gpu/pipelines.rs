@@ -178,7 +178,7 @@ impl Pipelines {
             blend: key.state.color.and_then(blend),
             write_mask: if key.state.color.is_some() { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() },
         })];
-        let constants = constants(entry.overrides, key.look);
+        let constants = constants(entry.overrides, key);
         let compilation_options =
             || wgpu::PipelineCompilationOptions { constants: &constants, ..wgpu::PipelineCompilationOptions::default() };
         let in_scene = key.target == Target::Scene;
@@ -223,10 +223,11 @@ impl Pipelines {
 }
 
 /// The values of a program's overrides.
-fn constants(overrides: &[Override], look: Look) -> Vec<(&'static str, f64)> {
+fn constants(overrides: &[Override], Key { look, state, .. }: &Key) -> Vec<(&'static str, f64)> {
     let value = |it: Override| match it {
         Override::Textured => ("TEXTURED", f64::from(u8::from(look.textured))),
         Override::Glossy => ("GLOSSY", f64::from(u8::from(look.glossy))),
+        Override::BothSides => ("BOTH_SIDES", f64::from(u8::from(state.cull == Cull::None))),
         Override::LightKind => {
             let kind = match look.light {
                 LightShape::Point => 0.0,

@@ -11,7 +11,7 @@ use super::context::GpuError;
 use crate::frame::Program;
 
 /// The files as they were when the program was built.
-const EMBEDDED: [(&str, &str); 12] = [
+const EMBEDDED: [(&str, &str); 11] = [
     ("shared/frame.wgsl", include_str!("../../shaders/shared/frame.wgsl")),
     ("shared/surface.wgsl", include_str!("../../shaders/shared/surface.wgsl")),
     ("shared/full_screen.wgsl", include_str!("../../shaders/shared/full_screen.wgsl")),
@@ -22,7 +22,6 @@ const EMBEDDED: [(&str, &str); 12] = [
     ("verdict.wgsl", include_str!("../../shaders/verdict.wgsl")),
     ("volume.wgsl", include_str!("../../shaders/volume.wgsl")),
     ("wireframe.wgsl", include_str!("../../shaders/wireframe.wgsl")),
-    ("background.wgsl", include_str!("../../shaders/background.wgsl")),
     ("output.wgsl", include_str!("../../shaders/output.wgsl")),
 ];
 
@@ -63,6 +62,8 @@ pub enum Override {
     Textured,
     /// `GLOSSY`: highlights are computed.
     Glossy,
+    /// `BOTH_SIDES`: triangles are seen from behind too.
+    BothSides,
     /// `LIGHT_KIND`: the shape of the one light.
     LightKind,
 }
@@ -79,13 +80,12 @@ const fn entry(
 }
 
 /// What `shared/surface.wgsl` declares.
-const SURFACE: &[Override] = &[Override::Textured, Override::Glossy];
+const SURFACE: &[Override] = &[Override::Textured, Override::Glossy, Override::BothSides];
 /// And `lit.wgsl` beside it.
-const LIT: &[Override] = &[Override::Textured, Override::Glossy, Override::LightKind];
+const LIT: &[Override] = &[Override::Textured, Override::Glossy, Override::BothSides, Override::LightKind];
 
 /// Every program, in the order of the enum.
-pub const PROGRAMS: [Entry; 12] = [
-    entry(Program::Background, "background.wgsl", "full_screen_vertex", "background", Vertices::None, &[]),
+pub const PROGRAMS: [Entry; 11] = [
     entry(Program::Ambient, "ambient.wgsl", "surface_vertex", "ambient", Vertices::Surface, SURFACE),
     entry(Program::AmbientMasked, "ambient.wgsl", "surface_vertex", "ambient_masked", Vertices::Surface, SURFACE),
     entry(Program::Lit, "lit.wgsl", "surface_vertex", "lit", Vertices::Surface, LIT),

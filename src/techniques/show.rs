@@ -5,13 +5,6 @@ use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::StencilState;
 use crate::frame::{Action, Draw, DrawSet, Look, Method, Part, Program, Step, Target, VolumePart};
 
-/// The gradient behind everything: drawn at infinity, so only where no surface is.
-#[must_use]
-pub fn background(scissor: [u32; 4]) -> Step {
-    let why = "A gradient at infinity: it shows only where no surface laid depth.";
-    full_screen("background", why, Program::Background, Target::Scene, Depth::NOTHING_THERE, scissor)
-}
-
 /// One light's volumes as coloured glass over the picture (M image 2).
 #[must_use]
 pub fn volumes(plans: &[VolumePlan], light: usize, scissor: [u32; 4]) -> Vec<Step> {
@@ -90,21 +83,17 @@ pub fn stencil_colors(scissor: [u32; 4]) -> Step {
         "stencil in false colour",
         "Reads the stencil and gives each count a colour; the legend names them.",
         Program::StencilColors,
-        Target::Output,
-        Depth::IGNORE,
         scissor,
     )
 }
 
-/// Exposure and tone curve: linear light becomes the picture.
+/// Background, exposure and tone curve: linear light becomes the picture.
 #[must_use]
 pub fn tone_map(scissor: [u32; 4]) -> Step {
     full_screen(
         "tone map",
-        "Exposure and tone curve: linear light becomes the picture.",
+        "Fills in the background, exposure and tone curve: linear light becomes the picture.",
         Program::ToneMap,
-        Target::Output,
-        Depth::IGNORE,
         scissor,
     )
 }
@@ -112,17 +101,10 @@ pub fn tone_map(scissor: [u32; 4]) -> Step {
 /// Display values as they are, for pictures that other programs read.
 #[must_use]
 pub fn copy(scissor: [u32; 4]) -> Step {
-    full_screen(
-        "copy",
-        "Values go to the picture as they are, for other programs to read.",
-        Program::Copy,
-        Target::Output,
-        Depth::IGNORE,
-        scissor,
-    )
+    full_screen("copy", "Values go to the picture as they are, for other programs to read.", Program::Copy, scissor)
 }
 
-fn full_screen(label: &str, why: &str, program: Program, target: Target, depth: Depth, scissor: [u32; 4]) -> Step {
+fn full_screen(label: &str, why: &str, program: Program, scissor: [u32; 4]) -> Step {
     Step {
         label: label.into(),
         why: why.into(),
@@ -130,9 +112,9 @@ fn full_screen(label: &str, why: &str, program: Program, target: Target, depth: 
         action: Action::Draw(Box::new(Draw {
             program,
             look: Look::default(),
-            target,
+            target: Target::Output,
             state: State {
-                depth,
+                depth: Depth::IGNORE,
                 stencil: StencilState::IGNORE,
                 color: Some(Blend::Replace),
                 cull: Cull::None,
