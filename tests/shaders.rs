@@ -1,7 +1,7 @@
 //! Every WGSL entry point passes naga, and every struct shared with Rust has the same layout there.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
-use obscura::gpu::shaders::{Library, PROGRAMS, entry_of};
+use obscura::gpu::shaders::{Library, PROGRAMS, Vertices, entry_of};
 use obscura::gpu::types;
 
 #[test]
@@ -26,6 +26,20 @@ fn every_entry_point_in_the_files_is_used_by_a_program() {
             let used =
                 PROGRAMS.iter().any(|entry| entry.vertex == point.name || (entry.file == file && entry.fragment == point.name));
             assert!(used, "{file}: entry point `{}` belongs to no program", point.name);
+        }
+    }
+}
+
+#[test]
+fn every_override_is_set_by_its_program() {
+    let library = Library::new(None);
+    for entry in PROGRAMS {
+        let module = library.source(entry.file).unwrap().check().unwrap();
+        let declared = module.overrides.iter().count();
+        let set = entry.overrides.len();
+        assert!(set <= declared, "{:?} sets overrides that {} does not declare", entry.program, entry.file);
+        if entry.vertices == Vertices::Surface {
+            assert_eq!(set, declared, "{:?} leaves an override of {} to its default", entry.program, entry.file);
         }
     }
 }
@@ -95,7 +109,7 @@ fn shared_structs_have_the_same_layout() {
 fn an_error_names_file_line_and_column() {
     let folder = tempfile::tempdir().unwrap();
     let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/lit.wgsl")).unwrap();
-    let broken = text.replace("light_on_surface(lights", "no_such_function(lights");
+    let broken = text.replace("light_on_surface(draw", "no_such_function(draw");
     assert_ne!(text, broken);
     let line = 1 + broken.lines().position(|line| line.contains("no_such_function")).unwrap();
     std::fs::write(folder.path().join("lit.wgsl"), broken).unwrap();
