@@ -1,0 +1,134 @@
+//! Each stock scene drawn with each technique, and one with each show, against pictures in
+//! `tests/goldens/`.
+//!
+//! A picture that is missing fails; `OBSCURA_UPDATE=1 cargo test --test goldens` writes them anew:
+//! look at them before committing. What differs is written to `target/goldens/`.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+
+mod common;
+
+use std::path::{Path, PathBuf};
+
+use common::Stage;
+use image::RgbaImage;
+use obscura::scene::stock;
+use obscura::settings::{Settings, Show, Technique};
+
+const SIZE: [u32; 2] = [240, 135];
+
+/// THE tolerance. Between hosts, LLVM schedules the same shader differently, and colours differ in
+/// the last bits: up to [`LEVELS`] of 255 after the tone curve's steep dark end. Vertex positions
+/// differ likewise, so that a silhouette may pass on the other side of a pixel's centre: up to
+/// [`EDGES`] of a picture's pixels may then show something else altogether. A wrong count anywhere
+/// is an area, and far more than that.
+const LEVELS: u8 = 5;
+const EDGES: f64 = 0.0015;
+
+fn compare(name: &str, found: &RgbaImage) -> Result<(), String> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/goldens").join(format!("{name}.png"));
+    if std::env::var_os("OBSCURA_UPDATE").is_some() {
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        found.save(&path).unwrap();
+    }
+    let golden = image::open(&path).map_err(|error| format!("{}: {error}", path.display()))?.to_rgba8();
+    if golden.dimensions() != found.dimensions() {
+        return Err(format!("{name}: {:?} instead of {:?}", found.dimensions(), golden.dimensions()));
+    }
+    let differs = |a: &image::Rgba<u8>, b: &image::Rgba<u8>| (0..4).any(|i| a.0[i].abs_diff(b.0[i]) > LEVELS);
+    let wrong = golden.pixels().zip(found.pixels()).filter(|(a, b)| differs(a, b)).count();
+    let share = wrong as f64 / f64::from(SIZE[0] * SIZE[1]);
+    if share <= EDGES {
+        return Ok(());
+    }
+    let kept: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.png"));
+    found.save(&kept).unwrap();
+    Err(format!("{name}: {wrong} pixels differ ({:.2} %); found {}", share * 100.0, kept.display()))
+}
+
+#[test]
+fn every_stock_scene_and_technique_looks_as_it_did() {
+    let mut stage = Stage::new();
+    let mut faults = Vec::new();
+    for row in stock::TABLE {
+        let scene = stock::build(row.name).unwrap().unwrap();
+        stage.set_scene(&scene);
+        for technique in Technique::ALL {
+            let settings = Settings { technique, size: SIZE, time: 1.0, ..Settings::default() };
+            let shot = stage.shoot(&settings, &scene);
+            faults.extend(compare(&format!("{}-{}", row.name, technique.name()), &shot.image).err());
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn every_show_looks_as_it_did() {
+    let mut stage = Stage::new();
+    let mut faults = Vec::new();
+    let scene = stock::build("cubes").unwrap().unwrap();
+    stage.set_scene(&scene);
+    for show in Show::ALL.into_iter().filter(|show| *show != Show::Final) {
+        let settings = Settings { show, size: SIZE, time: 1.0, ..Settings::default() };
+        let shot = stage.shoot(&settings, &scene);
+        faults.extend(compare(&format!("show-{}", show.name()), &shot.image).err());
+    }
+    let settings = Settings { samples: 4, size: SIZE, time: 1.0, ..Settings::default() };
+    faults.extend(compare("cubes-4-samples", &stage.shoot(&settings, &scene).image).err());
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// The tolerance lets no shadow go: without its shadows every scene fails.
+#[test]
+fn the_tolerance_sees_a_missing_shadow() {
+    if std::env::var_os("OBSCURA_UPDATE").is_some() {
+        return; // would overwrite the goldens with pictures without shadows
+    }
+    let mut stage = Stage::new();
+    for row in stock::TABLE {
+        let scene = stock::build(row.name).unwrap().unwrap();
+        stage.set_scene(&scene);
+        let settings = Settings { technique: Technique::None, size: SIZE, time: 1.0, ..Settings::default() };
+        let shot = stage.shoot(&settings, &scene);
+        assert!(compare(&format!("{}-z-fail", row.name), &shot.image).is_err(), "{}", row.name);
+    }
+}
+
+/// `show shadow` holds three values and no others, whatever the sample setting, and the verdict is
+/// the stencil's.
+#[test]
+fn shows_of_exact_values_are_exact() {
+    let mut stage = Stage::new();
+    let scene = stock::build("cubes").unwrap().unwrap();
+    stage.set_scene(&scene);
+    let settings = Settings { show: Show::Shadow, samples: 4, size: SIZE, ..Settings::default() };
+    let verdict = stage.shoot(&settings, &scene).image;
+    let counts = stage.stencil();
+    let mut seen = [0usize; 3];
+    for (pixel, count) in verdict.pixels().zip(counts) {
+        match pixel.0 {
+            [255, 255, 255, 255] => {
+                assert_eq!(count, 0);
+                seen[0] += 1;
+            }
+            [0, 0, 0, 255] => {
+                assert_ne!(count, 0);
+                seen[1] += 1;
+            }
+            [128, 128, 128, 255] => seen[2] += 1,
+            other => panic!("a value that says nothing: {other:?}"),
+        }
+    }
+    assert!(seen.iter().all(|&count| count > 100), "lit, shadow, neither: {seen:?}");
+}
+
+/// The same settings draw the same picture, to the last bit.
+#[test]
+fn the_same_settings_draw_the_same_picture() {
+    let scene = stock::build("courtyard").unwrap().unwrap();
+    let draw = || {
+        let mut stage = Stage::new();
+        stage.set_scene(&scene);
+        stage.shoot(&Settings { size: SIZE, time: 2.5, ..Settings::default() }, &scene).image
+    };
+    assert!(draw() == draw());
+}
