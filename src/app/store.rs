@@ -12,7 +12,8 @@ use serde::{Deserialize, Serialize};
 
 use super::clock::Clock;
 use super::control::Mode;
-use crate::settings::{CameraChoice, SceneChoice, Settings};
+use crate::cli::check;
+use crate::settings::{SceneChoice, Settings};
 
 /// How long after a change the file is written: a slider dragged for a second is one write.
 pub const DELAY: Duration = Duration::from_millis(500);
@@ -93,19 +94,23 @@ impl Stored {
     fn sane(mut self) -> Self {
         let defaults = Settings::default();
         let settings = &mut self.settings;
-        if !matches!(settings.samples, 1 | 4) {
-            settings.samples = defaults.samples;
-        }
         settings.size = defaults.size;
-        settings.time = 0.0;
-        settings.fov = settings.fov.filter(|degrees| *degrees > 0.0 && *degrees < 180.0);
-        if !settings.exposure.is_finite() || settings.exposure.abs() > 16.0 {
-            settings.exposure = defaults.exposure;
-        }
-        if let CameraChoice::Free { eye, target } = settings.camera
-            && !(eye.is_finite() && target.is_finite() && eye != target)
-        {
-            settings.camera = CameraChoice::First;
+        settings.time = defaults.time;
+        // Each part is judged by itself, as the command line's are: one that was refused would keep the
+        // program from starting until somebody found the file.
+        let parts: [fn(&mut Settings, Settings); 5] = [
+            |to, from| to.samples = from.samples,
+            |to, from| to.fov = from.fov,
+            |to, from| to.exposure = from.exposure,
+            |to, from| to.camera = from.camera,
+            |to, from| to.lights = from.lights,
+        ];
+        for part in parts {
+            let mut alone = Settings::default();
+            part(&mut alone, settings.clone());
+            if check(&alone).is_err() {
+                part(settings, Settings::default());
+            }
         }
         self.preferences.clock = self.preferences.clock.sane();
         self.preferences.recent.truncate(RECENT);
@@ -230,7 +235,7 @@ fn write(path: &Path, stored: &Stored) -> std::io::Result<()> {
 mod tests {
     #![allow(clippy::unwrap_used)] // a failed unwrap is a failed test
     use super::*;
-    use crate::settings::{LightEdit, Technique};
+    use crate::settings::{CameraChoice, LightEdit, Technique};
     use glam::DVec3;
 
     fn store(folder: &Path) -> Store {
@@ -301,6 +306,24 @@ mod tests {
         let mut expected = Stored::default();
         expected.preferences.clock.speed = 0.05;
         assert_eq!(stored, expected);
+    }
+
+    #[test]
+    fn whatever_the_file_says_the_window_opens() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir_all(folder.path().join("deep")).unwrap();
+        for broken in [
+            r#""camera": {"free": {"eye": [1e12, 0, 0], "target": [0, 0, 0]}}"#,
+            r#""exposure": -40"#,
+            r#""fov": 0"#,
+            r#""lights": {"0": {"range": -1}}"#,
+            r#""lights": {"0": {"position": [1e300, 0, 0]}}"#,
+        ] {
+            let text = format!(r#"{{"settings": {{"technique": "z-pass", {broken}}}}}"#);
+            std::fs::write(folder.path().join("deep/settings.json"), text).unwrap();
+            let (stored, _) = store(folder.path()).load();
+            assert_eq!(stored.settings, Settings { technique: Technique::ZPass, ..Settings::default() }, "{broken}");
+        }
     }
 
     #[test]
