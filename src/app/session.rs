@@ -55,7 +55,8 @@ pub(super) struct Session {
 }
 
 impl Session {
-    pub fn new(settings: Settings, options: &WindowOptions, mut store: Store) -> Self {
+    pub fn new(mut settings: Settings, options: &WindowOptions, mut store: Store) -> Self {
+        settings.scene = wherever(settings.scene);
         let (stored, note) = store.load();
         let mut preferences = stored.preferences;
         if let Some(vsync) = options.vsync {
@@ -142,6 +143,7 @@ impl Session {
 
     /// Starts opening a scene; one that was on its way is forgotten.
     pub fn open(&mut self, choice: SceneChoice, keep: bool, wake: impl FnOnce() + Send + 'static) {
+        let choice = wherever(choice);
         let name = match &choice {
             SceneChoice::Stock(name) => name.clone(),
             SceneChoice::File(path) => path.display().to_string(),
@@ -244,6 +246,15 @@ impl Session {
     }
 }
 
+/// The same scene, named so that it is found again from any folder: settings and recent files are
+/// kept, and the next run may start elsewhere.
+fn wherever(choice: SceneChoice) -> SceneChoice {
+    match choice {
+        SceneChoice::File(path) => SceneChoice::File(std::path::absolute(&path).unwrap_or(path)),
+        stock @ SceneChoice::Stock(_) => stock,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)] // a failed unwrap is a failed test
@@ -293,6 +304,24 @@ mod tests {
         assert!(!open(&mut session, good, Err("too many triangles".into())));
         assert_eq!(session.settings, before, "nor does one that the device cannot take");
         assert!(session.notices[0].words.contains("too many triangles"));
+    }
+
+    #[test]
+    fn files_are_remembered_for_runs_from_other_folders() {
+        let here = tempfile::tempdir_in(".").unwrap();
+        let folder = std::path::Path::new(here.path().file_name().unwrap());
+        let relative = cube(folder);
+        let mut session = Session::new(
+            Settings { scene: relative.clone(), ..Settings::default() },
+            &WindowOptions::default(),
+            Store::at(None),
+        );
+        let absolute = std::env::current_dir().unwrap().join(folder).join("tri.gltf");
+        assert_eq!(session.settings.scene, SceneChoice::File(absolute.clone()));
+        session.settings = Settings::default();
+        assert!(!open(&mut session, relative, Ok(())));
+        assert_eq!(session.settings.scene, SceneChoice::File(absolute.clone()));
+        assert_eq!(session.preferences.recent, [absolute]);
     }
 
     #[test]
