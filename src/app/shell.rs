@@ -174,13 +174,14 @@ impl Shell {
         }
         self.build_screen()?;
         self.session.notice(Topic::Device, Tone::Warning, "The graphics device was lost; everything was built anew.");
+        self.take_opened();
         Ok(())
     }
 
-    /// One frame, whatever the device does about it.
-    fn redraw(&mut self, event_loop: &ActiveEventLoop) {
+    /// Does what may touch the device, whatever that does about it.
+    fn guarded(&mut self, event_loop: &ActiveEventLoop, work: impl FnOnce(&mut Self) -> Result<(), AppError>) {
         // wgpu panics in places when the device is lost under it.
-        let result = match catch_unwind(AssertUnwindSafe(|| self.frame(event_loop))) {
+        let result = match catch_unwind(AssertUnwindSafe(|| work(self))) {
             Ok(result) => result,
             Err(panic) => {
                 let lost = |live: &Live| live.screen.as_ref().is_some_and(|screen| screen.context.is_lost());
@@ -384,6 +385,10 @@ impl Shell {
     /// A scene may be there: shows it, or says why not.
     fn take_opened(&mut self) {
         let Some(screen) = self.live.as_mut().and_then(|live| live.screen.as_mut()) else { return };
+        if screen.context.is_lost() {
+            // It takes no scene; the one that is built in its place does.
+            return;
+        }
         let needs_another = self.session.take_opened(|scene| screen.set_scene(scene).map_err(|error| error.to_string()));
         if needs_another {
             store::turn_to(&mut self.session.settings, SceneChoice::default());
@@ -399,6 +404,9 @@ impl Shell {
         self.next_shader_poll = Some(now + SHADER_POLL);
         let Some(screen) = self.live.as_mut().and_then(|live| live.screen.as_mut()) else { return };
         let scene = self.session.loaded.as_ref().map(|loaded| &loaded.scene);
+        if screen.context.is_lost() {
+            return;
+        }
         match screen.poll_shaders(scene) {
             None => return,
             Some(Ok(())) => {
@@ -488,7 +496,10 @@ impl ApplicationHandler<Wake> for Shell {
     fn user_event(&mut self, event_loop: &ActiveEventLoop, wake: Wake) {
         match wake {
             Wake::Quit => event_loop.exit(),
-            Wake::Scene => self.take_opened(),
+            Wake::Scene => self.guarded(event_loop, |shell| {
+                shell.take_opened();
+                Ok(())
+            }),
             Wake::Device => self.pace.want(Instant::now()),
         }
     }
@@ -516,14 +527,17 @@ impl ApplicationHandler<Wake> for Shell {
                 self.pace.want(now);
             }
             WindowEvent::DroppedFile(path) => self.open(SceneChoice::File(path), false),
-            WindowEvent::RedrawRequested => self.redraw(event_loop),
+            WindowEvent::RedrawRequested => self.guarded(event_loop, |shell| shell.frame(event_loop)),
             _ => {}
         }
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         let now = Instant::now();
-        self.poll_shaders(now);
+        self.guarded(event_loop, |shell| {
+            shell.poll_shaders(now);
+            Ok(())
+        });
         self.session.keep(now);
         let write = self.session.store.notice(&self.session.settings, &self.session.preferences, now);
         let shaders = self.session.settings.shaders.is_some().then_some(self.next_shader_poll).flatten();
