@@ -2,7 +2,7 @@
 //! `tests/goldens/`.
 //!
 //! A picture that is missing fails; `OBSCURA_UPDATE=1 cargo test --test goldens` writes them anew:
-//! look at them before committing. What differs is written to `target/goldens/`.
+//! look at them before committing. What differs is written to `target/tmp/`.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
