@@ -10,6 +10,9 @@ use super::{Desk, View};
 /// How many frames the graph remembers.
 pub const REMEMBERED: usize = 150;
 
+/// How many frames make a median, however long they took.
+const FEW: usize = 5;
+
 /// One drawn frame in numbers.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FrameNumbers {
@@ -50,10 +53,17 @@ impl History {
         self.frames.back()
     }
 
-    /// The median of something over the remembered frames: one hiccup does not move it.
+    /// The median of something over the last second, and a few frames at least: one hiccup does not
+    /// move it, and slow frames do not keep the numbers of another scene on show for minutes.
     #[must_use]
     pub fn median(&self, of: impl Fn(&FrameNumbers) -> Option<f64>) -> Option<f64> {
-        let mut values: Vec<f64> = self.frames.iter().filter_map(of).collect();
+        let mut age = 0.0;
+        let recent = self.frames.iter().rev().enumerate().take_while(|(index, frame)| {
+            let young = age < 1000.0 || *index < FEW;
+            age += frame.interval_ms.unwrap_or(0.0);
+            young
+        });
+        let mut values: Vec<f64> = recent.filter_map(|(_, frame)| of(frame)).collect();
         values.sort_by(f64::total_cmp);
         values.get(values.len() / 2).copied()
     }
@@ -100,8 +110,10 @@ fn graph(ui: &mut Ui, history: &History) {
     painter.rect_filled(rect, CornerRadius::same(4), style::WELL);
     let largest = history.frames.iter().map(|frame| frame.cpu_ms.max(frame.gpu_ms.unwrap_or(0.0))).fold(1.0, f64::max);
     // A scale that moves in steps is easier to read than one that breathes.
-    let top =
-        [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0].into_iter().find(|top| *top >= largest).unwrap_or(largest);
+    let top = [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0]
+        .into_iter()
+        .find(|top| *top >= largest)
+        .unwrap_or(largest);
     for share in [0.5, 1.0] {
         let y = rect.bottom() - rect.height() * share as f32 + 0.5;
         painter.hline(rect.x_range(), y, Stroke::new(1.0, Color32::from_rgb(0x24, 0x28, 0x30)));
@@ -203,6 +215,15 @@ mod tests {
         assert_eq!(history.frames.len(), REMEMBERED);
         assert_eq!(history.median(|frame| Some(frame.cpu_ms)), Some((REMEMBERED / 2 + 1) as f64));
         assert_eq!(history.median(|frame| frame.gpu_ms), None);
+    }
+
+    #[test]
+    fn a_median_tells_of_the_last_second() {
+        let mut history = History::default();
+        let frame = |interval: f64| FrameNumbers { interval_ms: Some(interval), ..FrameNumbers::default() };
+        (0..REMEMBERED).for_each(|_| history.push(frame(20.0)));
+        (0..FEW).for_each(|_| history.push(frame(700.0)));
+        assert_eq!(history.median(|frame| frame.interval_ms), Some(700.0), "a slower scene shows at once");
     }
 
     #[test]

@@ -37,7 +37,7 @@ pub fn time(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
                 clock.playing = false;
             }
         }
-        field(ui, "Speed", "Seconds of the scene a second (] and [)", |ui| {
+        field(ui, "Speed", "How fast the scene runs; 1x is real time (] and [)", |ui| {
             ui.add(slider(&mut clock.speed, SPEEDS).logarithmic(true).fixed_decimals(2).suffix("x"))
         });
         if let Some(scene) = view.scene {
