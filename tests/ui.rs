@@ -206,6 +206,21 @@ fn a_scene_is_asked_for_not_set() {
 }
 
 #[test]
+fn the_path_field_opens_from_a_folded_scene_and_what_is_typed_early_is_no_command() {
+    let mut harness = open(Bench::new());
+    harness.get_by_label("Scene").click();
+    harness.run_steps(10);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    // In one pass with Ctrl+O, as they come while a frame takes long.
+    harness.key_press(Key::T);
+    harness.key_press(Key::N);
+    harness.run_steps(10);
+    assert!(harness.get_by_label("Path").is_focused());
+    assert_eq!(settings(&harness), Settings::default());
+    assert_eq!(harness.state().actions, []);
+}
+
+#[test]
 fn a_typed_path_is_opened() {
     let mut harness = open(Bench::new());
     harness.key_press_modifiers(Modifiers::COMMAND, Key::O);

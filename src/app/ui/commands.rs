@@ -10,8 +10,9 @@ use crate::settings::{CameraChoice, SceneChoice, Show, Technique};
 /// Carries out the keys pressed since the last frame. Letters belong to the text field that has
 /// the focus, if one has.
 pub fn run(context: &Context, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_>, actions: &mut Vec<Action>) {
-    let typing = context.egui_wants_keyboard_input();
     for command in context.input(keys::pressed) {
+        // What is typed on after Ctrl+O belongs to the path, also before the field could take the focus.
+        let typing = panel.focus_path || context.egui_wants_keyboard_input();
         let while_typing = matches!(
             command,
             Command::Quit
@@ -72,7 +73,10 @@ fn one(command: Command, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_>
         Command::ToggleIcons => preferences.icons = !preferences.icons,
         Command::TogglePanel => preferences.panel = !preferences.panel,
         Command::ToggleHelp => panel.help = !panel.help,
-        Command::Close => panel.help = false,
+        Command::Close => {
+            panel.help = false;
+            panel.focus_path = false;
+        }
         Command::Screenshot => actions.push(Action::Screenshot),
         Command::CopyCommand => actions.push(Action::CopyCommand),
         Command::OpenPath => {

@@ -130,14 +130,26 @@ fn arrows(camera: &Camera, picture: Rect, position: DVec3) -> impl Iterator<Item
     (0..3).filter_map(move |axis| Some((axis, project(camera, picture, position + unit(axis) * metres)?)))
 }
 
-/// What a press at `at` grabs.
-pub fn grab(selected: Option<usize>, desk: &Desk<'_>, view: &View<'_>, camera: &Camera, picture: Rect, at: Pos2) -> Option<Drag> {
+/// What a press at `at` grabs: a light where it is, or where `painted` says that it was on the screen
+/// when the mouse went for it.
+pub fn grab(
+    selected: Option<usize>,
+    painted: &[(usize, Pos2)],
+    desk: &Desk<'_>,
+    view: &View<'_>,
+    camera: &Camera,
+    picture: Rect,
+    at: Pos2,
+) -> Option<Drag> {
     if !desk.preferences.icons {
         return None;
     }
     let icons = icons(desk, view, camera, picture);
-    let icon =
-        icons.iter().filter(|icon| icon.at.distance(at) < REACH).min_by(|a, b| a.at.distance(at).total_cmp(&b.at.distance(at)));
+    let seen = |icon: &Icon| {
+        let before = painted.iter().filter(|(light, _)| *light == icon.light).map(|(_, before)| before.distance(at));
+        before.fold(icon.at.distance(at), f32::min)
+    };
+    let icon = icons.iter().filter(|icon| seen(icon) < REACH).min_by(|a, b| seen(a).total_cmp(&seen(b)));
     if let Some(icon) = icon {
         return Some(Drag { light: icon.light, start: icon.position, grabbed: at, axis: None });
     }
@@ -157,7 +169,7 @@ pub fn follow(drag: &mut Drag, desk: &mut Desk<'_>, camera: &Camera, picture: Re
     }
 }
 
-/// Draws the icons.
+/// Draws the icons, and says where each is.
 pub fn paint(
     ui: &Ui,
     selected: Option<usize>,
@@ -166,11 +178,12 @@ pub fn paint(
     view: &View<'_>,
     camera: &Camera,
     picture: Rect,
-) {
-    let (Some(scene), true) = (view.scene, desk.preferences.icons) else { return };
+) -> Vec<(usize, Pos2)> {
+    let (Some(scene), true) = (view.scene, desk.preferences.icons) else { return Vec::new() };
     let painter = ui.painter_at(picture);
     let mouse = ui.input(|input| input.pointer.hover_pos());
-    for icon in icons(desk, view, camera, picture) {
+    let icons = icons(desk, view, camera, picture);
+    for icon in &icons {
         let Some(light) = scene.lights.get(icon.light) else { continue };
         let edit = desk.settings.lights.get(&icon.light);
         let on = edit.and_then(|edit| edit.on).unwrap_or(true);
@@ -208,6 +221,7 @@ pub fn paint(
             painter.galley(at, galley, style::TEXT);
         }
     }
+    icons.iter().map(|icon| (icon.light, icon.at)).collect()
 }
 
 #[cfg(test)]

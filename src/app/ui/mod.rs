@@ -145,6 +145,8 @@ pub struct Panel {
     selected_light: Option<usize>,
     unfold_light: Option<usize>,
     drag: Option<gizmo::Drag>,
+    /// Where each light's icon was painted last.
+    icons: Vec<(usize, egui::Pos2)>,
 }
 
 impl Panel {
@@ -204,7 +206,7 @@ impl Panel {
     }
 
     fn sections(&mut self, ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>, actions: &mut Vec<Action>) {
-        style::section(ui, "Scene", true, |ui| scene::scene(ui, self, desk, view, actions));
+        style::section_unfolded(ui, "Scene", true, self.focus_path, |ui| scene::scene(ui, self, desk, view, actions));
         style::section(ui, "Frame", true, |ui| numbers::numbers(ui, desk, view));
         style::section(ui, "Technique", true, |ui| technique::techniques(ui, desk));
         style::section(ui, "Show", true, |ui| technique::show(ui, desk, view));

@@ -30,36 +30,42 @@ pub fn picture(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
         });
     }
     let Some(camera) = super::camera_of(desk.settings, view) else { return rect };
-    if let Some(at) = ui.input(|input| input.pointer.press_origin())
-        && response.drag_started_by(PointerButton::Primary)
+    let held = response.is_pointer_button_down_on();
+    // A light is taken by the press itself: one that moves on its own is elsewhere by the time the
+    // press turns out to be a drag.
+    let pressed = ui.input(|input| input.pointer.primary_pressed().then(|| input.pointer.press_origin()).flatten());
+    if let Some(at) = pressed
+        && held
     {
-        panel.drag = gizmo::grab(panel.selected_light, desk, view, &camera, rect, at);
-        if let Some(drag) = panel.drag {
-            panel.choose_light(drag.light);
-        }
+        panel.drag = gizmo::grab(panel.selected_light, &panel.icons, desk, view, &camera, rect, at);
     }
     if response.clicked()
         && let Some(at) = response.interact_pointer_pos()
     {
-        match gizmo::grab(None, desk, view, &camera, rect, at) {
+        match panel.drag.take().or_else(|| gizmo::grab(None, &panel.icons, desk, view, &camera, rect, at)) {
             Some(light) => panel.choose_light(light.light),
             None => panel.selected_light = None,
         }
     }
-    if let Some(mut drag) = panel.drag
-        && let Some(mouse) = response.interact_pointer_pos()
-        && response.dragged_by(PointerButton::Primary)
-    {
-        gizmo::follow(&mut drag, desk, &camera, rect, mouse, ui.input(|input| input.modifiers.shift));
-        panel.drag = Some(drag);
-    } else {
-        panel.drag = None;
-        turn(&response, desk, &camera, rect);
+    match panel.drag {
+        Some(mut drag) if held => {
+            if let Some(mouse) = response.interact_pointer_pos()
+                && response.dragged_by(PointerButton::Primary)
+            {
+                panel.choose_light(drag.light);
+                gizmo::follow(&mut drag, desk, &camera, rect, mouse, ui.input(|input| input.modifiers.shift));
+                panel.drag = Some(drag);
+            }
+        }
+        _ => {
+            panel.drag = None;
+            turn(&response, desk, &camera, rect);
+        }
     }
     wheel(ui, &response, desk, view);
     fly(ui, desk, view);
     if let Some(camera) = super::camera_of(desk.settings, view) {
-        gizmo::paint(ui, panel.selected_light, panel.drag, desk, view, &camera, rect);
+        panel.icons = gizmo::paint(ui, panel.selected_light, panel.drag, desk, view, &camera, rect);
     }
     rect
 }

@@ -78,16 +78,19 @@ pub fn install(context: &egui::Context) {
 
 /// A part of the panel that can be folded away.
 pub fn section(ui: &mut Ui, title: &str, open: bool, contents: impl FnOnce(&mut Ui)) {
+    section_unfolded(ui, title, open, false, contents);
+}
+
+/// The same; `unfold` opens it, where it was folded away.
+pub fn section_unfolded(ui: &mut Ui, title: &str, open: bool, unfold: bool, contents: impl FnOnce(&mut Ui)) {
     ui.add_space(2.0);
     ui.separator();
-    egui::CollapsingHeader::new(RichText::new(title).strong().color(Color32::WHITE)).default_open(open).show_unindented(
-        ui,
-        |ui| {
-            ui.add_space(2.0);
-            contents(ui);
-            ui.add_space(4.0);
-        },
-    );
+    let header = egui::CollapsingHeader::new(RichText::new(title).strong().color(Color32::WHITE)).default_open(open);
+    header.open(unfold.then_some(true)).show_unindented(ui, |ui| {
+        ui.add_space(2.0);
+        contents(ui);
+        ui.add_space(4.0);
+    });
 }
 
 /// Less room around words, for rows of choices that should stay one row.
