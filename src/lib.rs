@@ -1,4 +1,85 @@
-//! Obscura: the architecture page is written as the parts land.
+//! Obscura, a laboratory for the stencil buffer. This page is its architecture: how the house is
+//! built, and why.
+//!
+//! # The way of the data
+//!
+//! ```text
+//!   command line, panel -> Settings -+
+//!                                    +-> director::stage: pose, camera, plan, validate
+//!   scene::open -------> Scene ------+              |
+//!                                               FramePlan (data)
+//!                                                   |
+//!                                             gpu::Renderer
+//!                                             /           \
+//!                                  the window's frame    a picture read back
+//! ```
+//!
+//! The window and the headless commands share everything but the last arrow. Nothing flows back up.
+//!
+//! - [`settings::Settings`] is all that a user can choose, as plain data. The command line fills it, the
+//!   panel edits it, tests build it; [`cli::render_command`] turns it back into the command line that
+//!   draws the same picture.
+//! - [`scene::Scene`] is what a file or a stock scene holds: nodes, meshes with their edge topology,
+//!   materials, lights, cameras, animations. Nothing changes it; [`scene::Pose`] is all of it that depends
+//!   on time.
+//! - [`frame::FramePlan`] is the heart: a list of [`frame::Step`]s, each with a sentence on what it is for
+//!   and its *whole* depth, stencil, blend and cull state, in ids and values only. So a frame can be
+//!   printed, compared with a stored text, checked and explained in the panel without a GPU.
+//! - [`director::plan`] is the only place where the order of passes is written, and reads aloud as the frame.
+//! - [`frame::validate::validate`] refuses a plan that tests bits nobody set, writes bits that are not its
+//!   own, or counts a volume inside out.
+//! - [`gpu`] carries plans out and decides nothing. The state in a step is its pipeline's cache key.
+//!
+//! # The rooms
+//!
+//! | room | what is in it |
+//! | --- | --- |
+//! | [`geometry`] | pure mathematics: bounds, the near pyramid, topology, silhouettes, volumes, the eye's count |
+//! | [`scene`] | the scene and its pose, glTF import, the mesh doctor, the stock scenes |
+//! | [`frame`] | the plan's types: steps, named states, the stencil's bits, camera, validation |
+//! | [`techniques`] | one file each and a table of them: how a caster's volume is counted, and why |
+//! | [`director`] | the pass order |
+//! | [`gpu`] | the device, shaders, pipelines, buffers, encoding, read-back, timing |
+//! | [`headless`] | pictures, the tour, lists and reports without a window |
+//! | [`app`] | the window: loop, surface, input, and the panel, which edits settings and nothing else |
+//!
+//! Imports go downward: `app` and `headless` to `director`, to `techniques`, to `frame`, to `scene`, to
+//! `geometry`; `gpu` reads `frame` and `scene`. Settings and scene name each other's choices (which
+//! scene; which animation), and everybody may read settings.
+//!
+//! # One frame
+//!
+//! Ambient light lays depth. Then light by light: the stencil starts at how many volumes hold the eye (0
+//! unless counting starts there), the volumes are counted, and the light is added where the count is zero.
+//! Blended surfaces, overlays and the tone curve come last.
+//!
+//! # Spaces and depth
+//!
+//! Right-handed, +Y up, metres, radians, linear colour. A matrix is `target_from_source`, a point's name
+//! says its space. Positions of meshes are single precision in object space; nodes, lights and cameras
+//! are double precision, and only `clip_from_object` is rounded, at the end.
+//!
+//! Depth is reverse-Z with an infinite far plane: the near plane maps to 1, infinity to 0, and nearer is
+//! `Greater`. What a light throws to infinity (w = 0) lands on depth 0 exactly, so volumes need no epsilon
+//! and no far plane. Surfaces and volumes get their clip position from one WGSL function, marked
+//! `@invariant`: the same place has the same depth to the last bit.
+//!
+//! # The stencil's bits
+//!
+//! ```text
+//!   bit   7 6 5 4 3 2 1 0
+//!         [  shadow count ]      modulo 256; mirrors will take the high bits
+//! ```
+//!
+//! [`frame::stencil`] owns them; no other code writes a mask. Counting wraps, so the order of faces does
+//! not matter, and a clear may set any starting value. More than 255 volumes over one pixel would be
+//! mistaken for fewer.
+//!
+//! # Exactness
+//!
+//! Which triangles face the light is decided once; silhouette, caps and the eye's count read that one
+//! decision, so a volume is closed whatever rounding does ([`geometry::silhouette`]). Z-fail and exact
+//! z-pass are two roads to one count, and a test holds them to the same stencil value in every pixel.
 
 pub mod app;
 pub mod cli;
