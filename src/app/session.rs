@@ -311,11 +311,8 @@ mod tests {
         let here = tempfile::tempdir_in(".").unwrap();
         let folder = std::path::Path::new(here.path().file_name().unwrap());
         let relative = cube(folder);
-        let mut session = Session::new(
-            Settings { scene: relative.clone(), ..Settings::default() },
-            &WindowOptions::default(),
-            Store::at(None),
-        );
+        let mut session =
+            Session::new(Settings { scene: relative.clone(), ..Settings::default() }, &WindowOptions::default(), Store::at(None));
         let absolute = std::env::current_dir().unwrap().join(folder).join("tri.gltf");
         assert_eq!(session.settings.scene, SceneChoice::File(absolute.clone()));
         session.settings = Settings::default();
