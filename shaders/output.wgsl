@@ -109,9 +109,14 @@ fn stencil_colors(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
         }
         return vec4f(decoded(color), 1.0);
     }
+    // Where no surface is there is nothing to count.
+    let scene = textureLoad(scene_color, vec2i(pixel.xy), 0);
+    if scene.a == 0.0 {
+        return vec4f(decoded(vec3f(0.02, 0.022, 0.03)), 1.0);
+    }
     let count = textureLoad(scene_stencil, vec2i(pixel.xy), 0).r;
     // Where the count is zero the scene shows through, dimly, so that one sees what is counted.
-    let ambient = textureLoad(scene_color, vec2i(pixel.xy), 0).rgb * frame.exposure;
+    let ambient = scene.rgb * frame.exposure;
     let hint = select(vec3f(0.0), vec3f(dot(ambient, vec3f(0.25, 0.5, 0.25))), count == 0u);
     return vec4f(decoded(count_color(count)) + hint * 0.5, 1.0);
 }

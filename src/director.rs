@@ -11,6 +11,7 @@ use crate::frame::state::Winding;
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::validate::{Fault, validate};
 use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, Step};
+use crate::geometry::Aabb;
 use crate::geometry::frustum::{NearPyramid, screen_rect};
 use crate::scene::pose::pose;
 use crate::scene::{Pose, Scene};
@@ -74,17 +75,16 @@ pub fn stage(settings: &Settings, scene: &Scene, capabilities: &Capabilities) ->
 pub fn plan(settings: &Settings, scene: &Scene, pose: &Pose, camera: Camera, capabilities: &Capabilities) -> FramePlan {
     let mut frame = Frame::new(settings, scene, pose, camera, capabilities);
     let whole = frame.whole();
-    let groups = surfaces::opaque_groups(scene, pose, &frame.plan.views[0]);
+    let groups = surfaces::opaque_groups(scene, pose, &frame.plan.views[0], frame.plan.size);
 
     match settings.show {
         Show::Stencil | Show::Shadow => {
             let count = frame.count(settings.light);
             let shows_stencil = settings.show == Show::Stencil;
-            let grey = if shows_stencil { 0.0 } else { MID_GREY };
-            frame.clear_all([grey, grey, grey, 1.0], count.base);
+            frame.clear_all([0.0; 4], count.base);
             frame.extend(surfaces::ambient(&groups, whole));
             if !shows_stencil {
-                frame.clear_color([grey, grey, grey, 1.0]);
+                frame.clear_color([MID_GREY, MID_GREY, MID_GREY, 1.0]);
             }
             frame.extend(count.steps);
             if shows_stencil {
@@ -118,7 +118,14 @@ pub fn plan(settings: &Settings, scene: &Scene, pose: &Pose, camera: Camera, cap
                 let unshadowed = count.steps.is_empty() && count.base == 0;
                 frame.extend(count.steps);
                 let stencil = if unshadowed { StencilState::IGNORE } else { StencilState::count_equals(frame.plan.budget) };
-                frame.extend(surfaces::lit(&groups, light, pose.lights[light].kind.into(), scissor, stencil));
+                frame.extend(surfaces::lit(
+                    &groups,
+                    light,
+                    pose.lights[light].kind.into(),
+                    scissor,
+                    stencil,
+                    &frame.reached(light),
+                ));
             }
             frame.extend(surfaces::transparent(scene, pose, &frame.plan.views[0], whole));
             match settings.show {
@@ -145,6 +152,8 @@ struct Frame<'a> {
     pose: &'a Pose,
     capabilities: &'a Capabilities,
     near_pyramid: NearPyramid,
+    /// Every surface, and the eye: volumes need not reach farther.
+    receivers: Aabb,
     plan: FramePlan,
 }
 
@@ -168,7 +177,9 @@ impl<'a> Frame<'a> {
             steps: Vec::new(),
             notes,
         };
-        Self { settings, scene, pose, capabilities, near_pyramid: NearPyramid::of(camera.eye, camera.near_rectangle()), plan }
+        let near_pyramid = NearPyramid::of(camera.eye, camera.near_rectangle());
+        let receivers = scene.bounds(pose).union(&Aabb::around(camera.eye, camera.eye));
+        Self { settings, scene, pose, capabilities, near_pyramid, receivers, plan }
     }
 
     fn whole(&self) -> [u32; 4] {
@@ -182,6 +193,15 @@ impl<'a> Frame<'a> {
             return Some(self.whole());
         }
         screen_rect(light.position, light.range, &self.plan.views[0].camera.clip_from_world(), self.plan.size)
+    }
+
+    /// Which instances lie, at least in part, within a light's range.
+    fn reached(&self, light: usize) -> Vec<bool> {
+        let light = &self.pose.lights[light];
+        let within = |node| {
+            !light.range.is_finite() || self.pose.world_bounds(self.scene, node).distance_to(light.position) <= light.range
+        };
+        self.scene.instances().map(|(node, ..)| within(node)).collect()
     }
 
     /// How the chosen technique counts this light's volumes.
@@ -210,6 +230,7 @@ impl<'a> Frame<'a> {
                 node,
                 mesh,
                 light: posed,
+                receivers: &self.receivers,
             })
             .collect();
         counting::count_light(row, &casters, light, scissor, self.plan.budget, &mut self.plan.volumes)

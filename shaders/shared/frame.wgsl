@@ -40,6 +40,7 @@ struct Light {
 
 struct Volume {
     light_in_object: vec4f,     // w = 1: a point; w = 0: the direction to a directional light
+    end_in_object: vec4f,       // the plane the volume ends on; (0, 0, 0, -1) at infinity
     object: u32,
     _pad0: u32,
     _pad1: u32,

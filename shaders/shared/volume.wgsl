@@ -1,8 +1,15 @@
 // Shadow volume vertices (M section 6): the buffer holds each vertex twice, with w = 1 where it is
-// and w = 0 where the light throws it, to infinity. A directional light throws all of them to one point.
+// and w = 0 where the light throws it: onto the plane where the volume ends, which may be the one at
+// infinity. A directional light throws all of them to one point at infinity.
 
 fn volume_position(vertex: vec4f, volume: u32) -> vec4f {
     let light = volumes[volume].light_in_object;
-    let thrown = vec4f(vertex.xyz * light.w - light.xyz, 0.0);
+    let end = volumes[volume].end_in_object;
+    // Along the ray from the light, light + t * way, to where the plane is; homogeneous, so that
+    // t may be infinite: (light * slope + way * height) / slope.
+    let way = vertex.xyz * light.w - light.xyz;
+    let slope = dot(end.xyz, way);
+    let height = -(dot(end.xyz, light.xyz) + end.w);
+    let thrown = vec4f(light.xyz * slope + way * height, slope);
     return clip_position(volumes[volume].object, select(thrown, vec4f(vertex.xyz, 1.0), vertex.w == 1.0));
 }

@@ -1,5 +1,6 @@
 //! The frame as one value.
 
+use glam::DVec4;
 use serde::Serialize;
 
 use super::camera::Camera;
@@ -54,6 +55,8 @@ pub struct VolumePlan {
     pub reason: Reason,
     /// How many of this caster's volumes hold the eye, where the method needs to know.
     pub holds_eye: i32,
+    /// The plane it ends on, world space, outward normal and offset; none where it goes to infinity.
+    pub end: Option<DVec4>,
     /// Whether some of its triangles may have to be turned to face the light: an open caster's.
     pub turns: bool,
     /// The front's winding on screen.

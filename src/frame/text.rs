@@ -26,6 +26,9 @@ impl Display for FramePlan {
             if volume.holds_eye != 0 {
                 write!(f, "; {} hold the eye", volume.holds_eye)?;
             }
+            if let Some(end) = volume.end {
+                write!(f, "; ends where ({}) . x = {:.3}", end.truncate(), -end.w)?;
+            }
             writeln!(f)?;
         }
         for (number, step) in self.steps.iter().enumerate() {

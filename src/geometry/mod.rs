@@ -1,6 +1,7 @@
 //! Pure math, no GPU and no scene: bounds, frusta, mesh topology, silhouettes, shadow volumes.
 
 pub mod bounds;
+pub mod ending;
 pub mod eye_count;
 pub mod frustum;
 pub mod silhouette;

@@ -1,12 +1,13 @@
 //! What changes with every frame: matrices, lights, and the indices of shadow volumes.
 
 use bytemuck::cast_slice;
-use glam::{DMat3, DMat4, Mat4, Vec3};
+use glam::{DAffine3, DMat3, DMat4, DVec4, Mat4, Vec3, Vec4};
 
 use super::context::Context;
 use super::scene_buffers::SceneBuffers;
 use super::types::{Draw, Frame, Light, Object, Volume};
 use crate::frame::{DrawSet, FramePlan, Part};
+use crate::geometry::ending::NEVER_ENDS;
 use crate::geometry::light_in_object;
 use crate::geometry::volume::{Caster, VolumeIndices, VolumeParts, VolumeScratch};
 use crate::scene::{LightKind, Pose, PosedLight, Scene};
@@ -185,6 +186,7 @@ impl FrameBuffers {
             let light = light_in_object(&pose.world_from_object[node_index], &pose.lights[volume.light]).as_vec4();
             scratch.volumes.push(Volume {
                 light_in_object: light.to_array(),
+                end_in_object: end_in_object(volume.end, &pose.world_from_object[node_index]).to_array(),
                 object: u32::try_from(volume.instance).unwrap_or(0),
                 _pad: [0; 3],
             });
@@ -229,6 +231,14 @@ impl FrameBuffers {
     pub fn index_count(&self) -> u64 {
         self.scratch.indices.len() as u64
     }
+}
+
+/// A plane of world space in object space, its normal made unit again.
+fn end_in_object(end: Option<DVec4>, world_from_object: &DAffine3) -> Vec4 {
+    let Some(end) = end else { return NEVER_ENDS.as_vec4() };
+    let normal = world_from_object.matrix3.transpose() * end.truncate();
+    let offset = end.truncate().dot(world_from_object.translation) + end.w;
+    (normal.extend(offset) / normal.length()).as_vec4()
 }
 
 fn frame(plan: &FramePlan, scene: &Scene, pose: &Pose) -> Frame {

@@ -73,6 +73,8 @@ pub struct Light {
 pub struct Volume {
     /// The light in the caster's object space, homogeneous.
     pub light_in_object: [f32; 4],
+    /// The plane the volume ends on, in the same space.
+    pub end_in_object: [f32; 4],
     /// The caster's instance number.
     pub object: u32,
     #[doc(hidden)]

@@ -3,7 +3,7 @@
 //! Every volume's parts are grouped by the state they need (method, part, winding), so that a frame
 //! has a handful of counting steps a light however many casters there are.
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 use super::Row;
 use crate::frame::plan::View;
@@ -12,10 +12,12 @@ use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{
     Action, Capabilities, Draw, DrawSet, Look, Method, Part, Program, Reason, Step, Target, VolumePart, VolumePlan,
 };
+use crate::geometry::Aabb;
+use crate::geometry::ending::ending_plane;
 use crate::geometry::eye_count::{EyeCount, holding_count};
 use crate::geometry::frustum::NearPyramid;
 use crate::geometry::light_in_object;
-use crate::scene::{AlphaMode, Mesh, Node, Pose, PosedLight, Scene};
+use crate::scene::{AlphaMode, LightKind, Mesh, Node, Pose, PosedLight, Scene};
 
 /// One caster before one light, as a technique's `decide` sees it.
 pub struct Caster<'a> {
@@ -39,6 +41,8 @@ pub struct Caster<'a> {
     pub mesh: &'a Mesh,
     /// The light.
     pub light: &'a PosedLight,
+    /// What holds everything that could receive its shadow, and the eye.
+    pub receivers: &'a Aabb,
 }
 
 impl Caster<'_> {
@@ -89,6 +93,16 @@ impl Caster<'_> {
         !self.light.range.is_finite() || nearest.distance(self.light.position) <= self.light.range
     }
 
+    /// The plane on which its volume may end without a visible pixel's count changing.
+    #[must_use]
+    pub fn end(&self) -> Option<DVec4> {
+        let world_from_object = self.pose.world_from_object[self.node_index];
+        let corners =
+            self.pose.bounds(self.scene, self.node_index).corners().map(|corner| world_from_object.transform_point3(corner));
+        let throws_from_a_point = !matches!(self.light.kind, LightKind::Directional);
+        throws_from_a_point.then(|| ending_plane(self.light.position, corners, self.receivers)).flatten()
+    }
+
     /// The front's winding on screen.
     #[must_use]
     pub fn winding(&self) -> Winding {
@@ -127,6 +141,7 @@ pub fn count_light(
             method,
             reason,
             holds_eye,
+            end: caster.end(),
             turns,
             winding: caster.winding(),
         });

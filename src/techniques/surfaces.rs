@@ -7,6 +7,7 @@ use crate::frame::plan::View;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{Action, Draw, DrawSet, LightShape, Look, Program, Step, Surface, Target};
+use crate::geometry::frustum::screen_rect;
 use crate::scene::{AlphaMode, Pose, Scene};
 
 /// Surfaces that share state and shader.
@@ -25,12 +26,20 @@ struct Kind {
     look: Look,
 }
 
-/// The scene's opaque and masked surfaces, grouped.
+/// The scene's opaque and masked surfaces that the view may see, grouped.
 #[must_use]
-pub fn opaque_groups(scene: &Scene, pose: &Pose, view: &View) -> Vec<SurfaceGroup> {
+pub fn opaque_groups(scene: &Scene, pose: &Pose, view: &View, size: [u32; 2]) -> Vec<SurfaceGroup> {
+    let clip_from_world = view.camera.clip_from_world();
+    let seen: Vec<_> = scene
+        .instances()
+        .map(|(node, ..)| {
+            let bounds = pose.world_bounds(scene, node);
+            screen_rect(bounds.center().as_dvec3(), f64::from(bounds.radius()), &clip_from_world, size).is_some()
+        })
+        .collect();
     let mut groups: Vec<SurfaceGroup> = Vec::new();
     for (kind, alpha, surface) in described(scene, pose, view) {
-        if alpha != AlphaMode::Blend {
+        if alpha != AlphaMode::Blend && seen[surface.instance] {
             match groups.iter_mut().find(|group| group.kind == kind) {
                 Some(group) => group.surfaces.push(surface),
                 None => groups.push(SurfaceGroup { kind, surfaces: vec![surface] }),
@@ -92,10 +101,17 @@ pub fn ambient(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
     groups.iter().map(|group| step(format!("ambient{}", group.words()), why, draw(group))).collect()
 }
 
-/// One light, added where its count is zero.
+/// One light, added where its count is zero, to the surfaces that `reached` says it may reach.
 #[must_use]
-pub fn lit(groups: &[SurfaceGroup], light: usize, shape: LightShape, scissor: [u32; 4], stencil: StencilState) -> Vec<Step> {
-    let draw = |group: &SurfaceGroup| Draw {
+pub fn lit(
+    groups: &[SurfaceGroup],
+    light: usize,
+    shape: LightShape,
+    scissor: [u32; 4],
+    stencil: StencilState,
+    reached: &[bool],
+) -> Vec<Step> {
+    let draw = |group: &SurfaceGroup, surfaces| Draw {
         program: Program::Lit,
         look: Look { light: shape, ..group.kind.look },
         target: Target::Scene,
@@ -104,10 +120,14 @@ pub fn lit(groups: &[SurfaceGroup], light: usize, shape: LightShape, scissor: [u
         scissor,
         light: Some(light),
         constant: [0.0; 4],
-        set: DrawSet::Surfaces(group.surfaces.clone()),
+        set: DrawSet::Surfaces(surfaces),
     };
     let why = "Adds the light where no volume holds the surface: where the count is zero.";
-    groups.iter().map(|group| step(format!("light {light}: add{}", group.words()), why, draw(group))).collect()
+    let of_group = |group: &SurfaceGroup| {
+        let surfaces: Vec<_> = group.surfaces.iter().copied().filter(|surface| reached[surface.instance]).collect();
+        (!surfaces.is_empty()).then(|| step(format!("light {light}: add{}", group.words()), why, draw(group, surfaces)))
+    };
+    groups.iter().filter_map(of_group).collect()
 }
 
 /// One light's verdict in exact values: white where the count is zero, black where it is not.

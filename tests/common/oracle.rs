@@ -1,7 +1,9 @@
 //! What a pixel's count must be, by rays in f64 over every triangle: for tiny scenes only.
 //!
 //! A pixel is decided when rays through its centre and four points a quarter pixel around it meet
-//! the same instance and find the same count; only those are compared.
+//! the same instance and find the same count, and the count stays when the light moves by a
+//! millionth of the scene's size, so that no surface that the light merely grazes is asked about;
+//! only decided pixels are compared.
 
 use glam::DVec3;
 use obscura::frame::Camera;
@@ -10,6 +12,13 @@ use obscura::scene::{AlphaMode, LightKind, Pose, Scene};
 /// The count of each pixel: none where there is no surface or the pixel is an edge.
 pub fn counts(scene: &Scene, pose: &Pose, camera: &Camera, light: usize, [width, height]: [u32; 2]) -> Vec<Option<u8>> {
     let triangles = triangles(scene, pose);
+    let nudge = 1e-6 * f64::from(scene.bounds(pose).radius());
+    let nudged = [DVec3::ONE, DVec3::NEG_ONE, DVec3::new(1.0, -1.0, 1.0), DVec3::new(-1.0, 1.0, -1.0)].map(|by| {
+        let mut moved = pose.clone();
+        moved.lights[light].position += by * nudge;
+        moved.lights[light].direction = (moved.lights[light].direction + by * 1e-6).normalize();
+        moved
+    });
     let mut counts = Vec::new();
     for y in 0..height {
         for x in 0..width {
@@ -19,7 +28,13 @@ pub fn counts(scene: &Scene, pose: &Pose, camera: &Camera, light: usize, [width,
             };
             let center = at(0.0, 0.0);
             let agree = [(-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)].iter().all(|&(dx, dy)| at(dx, dy) == center);
-            counts.push(center.filter(|_| agree).map(|(_, count)| count));
+            let steady = || {
+                nudged.iter().all(|moved| {
+                    let point = ((f64::from(x) + 0.5) / f64::from(width), (f64::from(y) + 0.5) / f64::from(height));
+                    count_at(&triangles, moved, camera, light, point) == center
+                })
+            };
+            counts.push(center.filter(|_| agree && steady()).map(|(_, count)| count));
         }
     }
     counts
