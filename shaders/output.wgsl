@@ -51,13 +51,13 @@ fn count_color(count: u32) -> vec3f {
         return vec3f(0.07, 0.08, 0.11);
     }
     if count >= 128u {
-        return mix(vec3f(0.35, 0.0, 0.1), vec3f(1.0, 0.12, 0.15), f32(max(count, 248u) - 248u) / 7.0);
+        return mix(vec3f(0.30, 0.0, 0.12), vec3f(1.0, 0.20, 0.18), pow(f32(max(count, 248u) - 248u) / 7.0, 3.0));
     }
     if count >= 9u {
         return vec3f(0.97, 0.97, 0.95);
     }
     let t = f32(count - 1u) / 7.0;
-    let low = mix(vec3f(0.20, 0.25, 0.65), vec3f(0.10, 0.62, 0.58), saturate(t * 2.0));
+    let low = mix(vec3f(0.16, 0.20, 0.72), vec3f(0.05, 0.68, 0.55), saturate(t * 2.0));
     return mix(low, vec3f(0.98, 0.90, 0.25), saturate(t * 2.0 - 1.0));
 }
 

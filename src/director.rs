@@ -4,6 +4,8 @@
 //! its steps, in order, and the result is plain data ([`FramePlan`]); [`stage`] adds what comes
 //! before (pose, camera) and after (validation), for the window and the headless commands alike.
 
+use std::cell::OnceCell;
+
 use thiserror::Error;
 
 use crate::frame::plan::View;
@@ -211,7 +213,9 @@ impl<'a> Frame<'a> {
 
     fn count_by(&mut self, row: &techniques::Row, light: usize) -> counting::LightCount {
         let posed = &self.pose.lights[light];
-        let Some(scissor) = self.light_rect(light).filter(|_| posed.shadows) else { return counting::LightCount::default() };
+        // The stencil is shown everywhere, so it is counted everywhere; light is added in range only.
+        let rect = if self.settings.show == Show::Stencil { Some(self.whole()) } else { self.light_rect(light) };
+        let Some(scissor) = rect.filter(|_| posed.shadows) else { return counting::LightCount::default() };
         let view = &self.plan.views[0];
         let casters: Vec<_> = self
             .scene
@@ -231,6 +235,7 @@ impl<'a> Frame<'a> {
                 mesh,
                 light: posed,
                 receivers: &self.receivers,
+                eye_count: OnceCell::new(),
             })
             .collect();
         counting::count_light(row, &casters, light, scissor, self.plan.budget, &mut self.plan.volumes)
@@ -256,7 +261,8 @@ impl<'a> Frame<'a> {
     }
 
     fn clear_all(&mut self, color: [f32; 4], stencil: u8) {
-        let why = "Depth to infinity (0, reverse-Z), the stencil to how many volumes of the first light hold the eye.";
+        let why =
+            "Depth to infinity (0, reverse-Z), the stencil to how many volumes of the light that is counted first hold the eye.";
         self.clear("clear".into(), why, Clear { color: Some(color), depth: Some(0.0), stencil: Some(stencil) });
     }
 

@@ -10,9 +10,10 @@ mod common;
 use std::path::{Path, PathBuf};
 
 use common::Stage;
+use glam::DVec3;
 use image::RgbaImage;
 use obscura::scene::stock;
-use obscura::settings::{Settings, Show, Technique};
+use obscura::settings::{LightEdit, Settings, Show, Technique};
 
 const SIZE: [u32; 2] = [240, 135];
 
@@ -119,6 +120,19 @@ fn shows_of_exact_values_are_exact() {
         }
     }
     assert!(seen.iter().all(|&count| count > 100), "lit, shadow, neither: {seen:?}");
+}
+
+/// A light whose range ends before everything on screen has no say anywhere: mid-grey throughout.
+#[test]
+fn a_verdict_out_of_range_is_grey() {
+    let mut stage = Stage::new();
+    let scene = stock::build("cubes").unwrap().unwrap();
+    stage.set_scene(&scene);
+    let mut settings = Settings { show: Show::Shadow, size: SIZE, ..Settings::default() };
+    let behind = LightEdit { position: Some(DVec3::new(0.0, 500.0, 500.0)), range: Some(1.0), ..LightEdit::default() };
+    settings.lights.insert(0, behind);
+    let verdict = stage.shoot(&settings, &scene).image;
+    assert!(verdict.pixels().all(|pixel| pixel.0 == [128, 128, 128, 255]));
 }
 
 /// The same settings draw the same picture, to the last bit.

@@ -57,7 +57,7 @@ struct Watch {
     wake: Mutex<Option<Box<dyn Fn() + Send + Sync>>>,
 }
 
-/// Drawing targets' bytes a pixel, one sample: colour, depth and stencil, resolved colour.
+/// Linear colour of the scene, wide enough that many lights do not band.
 pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// Depth and stencil of the scene (DESIGN section 3).
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth24PlusStencil8;
@@ -111,9 +111,9 @@ impl Context {
         let on_error = watch.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
             tracing::error!("{error}");
-            let first_line =
+            let one_line =
                 error.to_string().lines().map(str::trim).filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; ");
-            on_error.error.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(first_line);
+            on_error.error.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(one_line);
         }));
 
         let info = adapter.get_info();

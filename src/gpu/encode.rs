@@ -96,6 +96,10 @@ fn passes(plan: &FramePlan) -> Vec<Pass<'_>> {
                 });
             }
             Action::Draw(draw) => {
+                // The picture's own pass clears nothing of the scene's.
+                if let Some(clear) = pending.take_if(|_| draw.target == Target::Output) {
+                    passes.push(Pass { target: Target::Scene, clear, draws: Vec::new() });
+                }
                 let joins = pending.is_none() && passes.last().is_some_and(|pass| pass.target == draw.target);
                 if !joins {
                     passes.push(Pass { target: draw.target, clear: pending.take().unwrap_or(KEEP), draws: Vec::new() });

@@ -3,7 +3,7 @@
 use bytemuck::cast_slice;
 use glam::{DAffine3, DMat3, DMat4, DVec4, Mat4, Vec3, Vec4};
 
-use super::context::Context;
+use super::context::{Context, GpuError};
 use super::scene_buffers::SceneBuffers;
 use super::types::{Draw, Frame, Light, Object, Volume};
 use crate::frame::{DrawSet, FramePlan, Part};
@@ -61,7 +61,7 @@ impl Growing {
         if grown {
             self.buffer = Some(context.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(self.label),
-                size: needed + needed / 2 / 16 * 16,
+                size: (needed + needed / 2 / 16 * 16).min(context.device.limits().max_buffer_size).max(needed),
                 usage: self.usage,
                 mapped_at_creation: false,
             }));
@@ -105,6 +105,9 @@ impl FrameBuffers {
     }
 
     /// Builds and uploads everything the plan's steps will read.
+    ///
+    /// # Errors
+    /// Volumes with more indices than the device's largest buffer holds.
     pub fn write(
         &mut self,
         context: &Context,
@@ -113,8 +116,13 @@ impl FrameBuffers {
         plan: &FramePlan,
         scene: &Scene,
         pose: &Pose,
-    ) {
+    ) -> Result<(), GpuError> {
         self.build_volumes(buffers, plan, scene, pose);
+        let (bytes, largest) = (self.index_count() * 4, context.device.limits().max_buffer_size);
+        if bytes > largest {
+            let what = format!("its shadow volumes need {} MiB of indices, the device allows {}", bytes >> 20, largest >> 20);
+            return Err(GpuError::TooLarge(what));
+        }
         self.describe_objects(plan, scene, pose);
         let scratch = &mut self.scratch;
         scratch.lights.clear();
@@ -138,6 +146,7 @@ impl FrameBuffers {
         if grown || self.bind_group.is_none() {
             self.bind_group = self.make_bind_group(context, layout);
         }
+        Ok(())
     }
 
     fn make_bind_group(&self, context: &Context, layout: &wgpu::BindGroupLayout) -> Option<wgpu::BindGroup> {

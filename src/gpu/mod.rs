@@ -91,7 +91,12 @@ impl Renderer {
     /// # Errors
     /// A scene that does not fit the device.
     pub fn set_scene(&mut self, context: &Context, scene: &Scene) -> Result<(), GpuError> {
-        self.scene = Some(SceneBuffers::new(context, &self.pipelines.material_layout, &mut self.samplers, scene)?);
+        let memory = context.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let buffers = SceneBuffers::new(context, &self.pipelines.material_layout, &mut self.samplers, scene);
+        if let Some(error) = pollster::block_on(memory.pop()) {
+            return Err(GpuError::TooLarge(format!("it is out of memory: {error}")));
+        }
+        self.scene = Some(buffers?);
         Ok(())
     }
 
@@ -124,7 +129,7 @@ impl Renderer {
         for (instance, (node, _, mesh)) in scene.instances().enumerate() {
             buffers.pose(context, instance, mesh, pose.deformed[node].as_ref());
         }
-        self.frame.write(context, &self.pipelines.frame_layout, buffers, plan, scene, pose);
+        self.frame.write(context, &self.pipelines.frame_layout, buffers, plan, scene, pose)?;
 
         let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         let work = encode::Encode {

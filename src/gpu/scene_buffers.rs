@@ -1,14 +1,12 @@
 //! The scene on the device: what does not change while it is shown, and room for what is posed.
 
-use bytemuck::cast_slice;
-use glam::Vec3;
-use wgpu::util::DeviceExt;
-
 use super::context::{Context, GpuError};
 use super::texture::{self, Samplers};
 use super::types::{Attributes, Material};
 use crate::geometry::silhouette::Planes;
 use crate::scene::{AlphaMode, DeformedMesh, Mesh, Scene};
+use bytemuck::cast_slice;
+use glam::Vec3;
 
 /// Bytes that a scene may take on the device; llvmpipe overcommits memory until it aborts.
 const BUDGET: u64 = 3 << 30;
@@ -72,11 +70,7 @@ impl SceneBuffers {
             .iter()
             .map(|mesh| MeshBuffers {
                 vertices: VertexBuffers::new(context, mesh, mesh),
-                indices: context.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                    label: Some(&mesh.name),
-                    contents: padded(cast_slice(&mesh.indices)),
-                    usage: wgpu::BufferUsages::INDEX,
-                }),
+                indices: filled(context, &mesh.name, cast_slice(&mesh.indices), wgpu::BufferUsages::INDEX),
                 edges: None,
             })
             .collect();
@@ -88,19 +82,16 @@ impl SceneBuffers {
             .map(|material| {
                 let image = material.base_color_texture.and_then(|index| scene.textures.get(index).zip(textures.get(index)));
                 let sampler = samplers.get(context, image.map(|(texture, _)| texture));
-                let uniform = context.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                    label: Some(&material.name),
-                    contents: bytemuck::bytes_of(&Material {
-                        base_color: material.base_color.to_array(),
-                        emissive: material.emissive.to_array(),
-                        roughness: material.roughness,
-                        metallic: material.metallic,
-                        cutoff: if let AlphaMode::Mask(cutoff) = material.alpha { cutoff } else { 0.0 },
-                        unlit: f32::from(u8::from(material.unlit)),
-                        _pad: 0.0,
-                    }),
-                    usage: wgpu::BufferUsages::UNIFORM,
-                });
+                let values = Material {
+                    base_color: material.base_color.to_array(),
+                    emissive: material.emissive.to_array(),
+                    roughness: material.roughness,
+                    metallic: material.metallic,
+                    cutoff: if let AlphaMode::Mask(cutoff) = material.alpha { cutoff } else { 0.0 },
+                    unlit: f32::from(u8::from(material.unlit)),
+                    _pad: 0.0,
+                };
+                let uniform = filled(context, &material.name, bytemuck::bytes_of(&values), wgpu::BufferUsages::UNIFORM);
                 context.device.create_bind_group(&wgpu::BindGroupDescriptor {
                     label: Some(&material.name),
                     layout,
@@ -149,11 +140,7 @@ impl SceneBuffers {
                 .collect();
             lines.sort_unstable();
             lines.dedup();
-            let buffer = context.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some("edges"),
-                contents: padded(cast_slice(&lines)),
-                usage: wgpu::BufferUsages::INDEX,
-            });
+            let buffer = filled(context, "edges", cast_slice(&lines), wgpu::BufferUsages::INDEX);
             buffers.edges = Some((buffer, u32::try_from(lines.len() * 2).unwrap_or(u32::MAX)));
         }
     }
@@ -236,9 +223,17 @@ impl VertexBuffers {
     }
 }
 
-/// A buffer may not be empty.
-fn padded(bytes: &[u8]) -> &[u8] {
-    if bytes.is_empty() { &[0; 4] } else { bytes }
+/// A buffer with these bytes; at least four, as a buffer may not be empty. Written through the queue:
+/// a mapped buffer panics where the device is lost or out of memory.
+fn filled(context: &Context, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    let buffer = context.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: bytes.len().next_multiple_of(4).max(4) as u64,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    context.queue.write_buffer(&buffer, 0, bytes);
+    buffer
 }
 
 fn check_budget(context: &Context, scene: &Scene) -> Result<(), GpuError> {

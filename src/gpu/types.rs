@@ -17,7 +17,7 @@ pub struct Frame {
     pub smooth_terminator: f32,
     /// Linear radiance.
     pub ambient_ground: [f32; 3],
-    /// How many of `lights` shine.
+    /// How many `lights` there are, those that are off included.
     pub light_count: u32,
     /// Linear.
     pub background_top: [f32; 3],

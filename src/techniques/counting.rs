@@ -3,6 +3,8 @@
 //! Every volume's parts are grouped by the state they need (method, part, winding), so that a frame
 //! has a handful of counting steps a light however many casters there are.
 
+use std::cell::OnceCell;
+
 use glam::{DVec3, DVec4};
 
 use super::Row;
@@ -43,6 +45,8 @@ pub struct Caster<'a> {
     pub light: &'a PosedLight,
     /// What holds everything that could receive its shadow, and the eye.
     pub receivers: &'a Aabb,
+    /// What [`Self::holds_eye`] found, once asked.
+    pub eye_count: OnceCell<Option<i32>>,
 }
 
 impl Caster<'_> {
@@ -69,6 +73,10 @@ impl Caster<'_> {
     /// How many of this caster's volumes hold the eye; `None` where rounding could decide.
     #[must_use]
     pub fn holds_eye(&self) -> Option<i32> {
+        *self.eye_count.get_or_init(|| self.count_at_eye())
+    }
+
+    fn count_at_eye(&self) -> Option<i32> {
         let world_from_object = self.pose.world_from_object[self.node_index];
         let eye = world_from_object.inverse().transform_point3(self.view.camera.eye);
         let light = light_in_object(&world_from_object, self.light);

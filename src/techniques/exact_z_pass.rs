@@ -26,7 +26,7 @@ use crate::settings::Technique;
 pub(super) const ROW: Row = Row {
     technique: Technique::ExactZPass,
     title: "Exact z-pass",
-    about: "Counts sides only, from the eye's own count; exact everywhere, no caps.",
+    about: "Counts sides from the eye's own count, without caps; exact everywhere, by z-fail where that would not be.",
     exact: true,
     source: "this project; after Heidmann 1991 and Lengyel 2002; aim as in Usta et al. 2019",
     decide: |caster| Some(decide(caster)),

@@ -3,8 +3,9 @@
 //! The same count taken from the other end: from infinity towards the eye, faces *behind* the
 //! surface are counted, those that fail the depth test. Nothing between the eye and the surface
 //! matters, so the near plane cannot spoil it; but now the volume must be closed, with a light cap
-//! (the caster's light-facing triangles) and a dark cap (the same, at infinity). The projection has
-//! no far plane (DESIGN section 3), so nothing is cut off there either.
+//! (the caster's light-facing triangles) and a dark cap (the same, at infinity, or on a plane behind
+//! everything: [`crate::geometry::ending`]). The projection has no far plane (DESIGN section 3), so
+//! nothing is cut off there either.
 //!
 //! The light cap lies on the caster's own surface. Where that surface is surely in the depth
 //! buffer, no cap fragment can be nearer than what is stored, so the cap is drawn with depth
