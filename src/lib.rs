@@ -77,6 +77,14 @@
 //!
 //! # Exactness
 //!
+//! A volume need not reach to infinity: where a plane lies behind every surface and the eye, it ends
+//! there, and every visible count stays what it was ([`geometry::ending`] says why). The half-space rule
+//! for the dark cap's fan asks all of the caster's vertices, not only the silhouette's: a light in a room
+//! with a door sees a rim in one half-space and walls all round ([`geometry::volume`]).
+//!
+//! The shaders are specialised for what a step's materials and light have ([`frame::Look`]), because a
+//! software GPU pays for every instruction of every pixel.
+//!
 //! Which triangles face the light is decided once; silhouette, caps and the eye's count read that one
 //! decision, so a volume is closed whatever rounding does ([`geometry::silhouette`]). Z-fail and exact
 //! z-pass are two roads to one count, and a test holds them to the same stencil value in every pixel.
