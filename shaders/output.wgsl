@@ -44,8 +44,14 @@ fn decoded(value: vec3f) -> vec3f {
     return select(pow((value + 0.055) / 1.055, vec3f(2.4)), value / 12.92, value <= vec3f(0.04045));
 }
 
-// Counts in false colour: 0 is dark, 1 to 8 run from blue over green to yellow, 9 and more are
-// white, and counts that wrapped below zero (128 to 255) are red, -1 the brightest.
+// 1 to 8, each told from its neighbours at a glance.
+const COUNT_COLORS = array<vec3f, 8>(
+    vec3f(0.20, 0.26, 0.75), vec3f(0.13, 0.60, 0.95), vec3f(0.06, 0.70, 0.58), vec3f(0.33, 0.76, 0.27),
+    vec3f(0.74, 0.84, 0.20), vec3f(0.98, 0.80, 0.20), vec3f(0.96, 0.55, 0.20), vec3f(0.93, 0.42, 0.72),
+);
+
+// Counts in false colour: 0 is dark, 1 to 8 run from blue over green to orange and pink, 9 and more
+// are white, and counts that wrapped below zero (128 to 255) are red, -1 the brightest.
 fn count_color(count: u32) -> vec3f {
     if count == 0u {
         return vec3f(0.07, 0.08, 0.11);
@@ -56,9 +62,7 @@ fn count_color(count: u32) -> vec3f {
     if count >= 9u {
         return vec3f(0.97, 0.97, 0.95);
     }
-    let t = f32(count - 1u) / 7.0;
-    let low = mix(vec3f(0.16, 0.20, 0.72), vec3f(0.05, 0.68, 0.55), saturate(t * 2.0));
-    return mix(low, vec3f(0.98, 0.90, 0.25), saturate(t * 2.0 - 1.0));
+    return COUNT_COLORS[count - 1u];
 }
 
 // 3 x 5 glyphs, rows from the top, three bits a row: 0 to 9, plus, minus.

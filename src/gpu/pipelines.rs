@@ -131,11 +131,18 @@ impl Pipelines {
     /// # Errors
     /// A shader that does not compile, with file, line and column.
     pub fn reload(&mut self, context: &Context, library: &Library) -> Result<(), GpuError> {
-        let modules = compile(context, library)?;
+        let scope = context.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let modules = match compile(context, library) {
+            Ok(modules) => modules,
+            Err(error) => {
+                // Nothing reached the device.
+                drop(scope);
+                return Err(error);
+            }
+        };
         // A shader may be valid by itself and still not fit its pipeline: try all that are in use.
         let keys: Vec<_> = self.made.keys().copied().collect();
         let before = std::mem::replace(&mut self.modules, modules);
-        let scope = context.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let made: HashMap<_, _> = keys.into_iter().map(|key| (key, self.make(context, &key))).collect();
         match pollster::block_on(scope.pop()) {
             None => {

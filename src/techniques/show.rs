@@ -40,7 +40,7 @@ pub fn volumes(plans: &[VolumePlan], light: usize, scissor: [u32; 4]) -> Vec<Ste
                 stencil_reference: 0,
                 scissor,
                 light: Some(light),
-                constant: [0.45, 0.16, 0.75, 0.16],
+                constant: [0.45, 0.16, 0.75, 0.11],
                 set: DrawSet::Volumes(parts),
             })),
         });
