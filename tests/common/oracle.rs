@@ -40,11 +40,6 @@ pub fn counts(scene: &Scene, pose: &Pose, camera: &Camera, light: usize, [width,
     counts
 }
 
-/// How many volumes hold `point`, for one light.
-pub fn count_of_point(scene: &Scene, pose: &Pose, light: usize, point: DVec3) -> u8 {
-    count(&triangles(scene, pose), pose, light, point)
-}
-
 struct Triangle {
     corners: [DVec3; 3],
     instance: usize,
