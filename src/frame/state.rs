@@ -20,6 +20,10 @@ pub enum Compare {
     Equal,
     /// Passes where they differ.
     NotEqual,
+    /// Passes where the incoming value is less: farther, for depth.
+    Less,
+    /// Passes where the incoming value is less or the same.
+    LessEqual,
     /// Passes where the incoming value is greater: nearer, for depth.
     Greater,
     /// Passes where the incoming value is greater or the same.
@@ -33,22 +37,48 @@ pub struct Depth {
     pub compare: Compare,
     /// Whether passing fragments replace the stored depth.
     pub write: bool,
+    /// What is added to a fragment's depth before it is compared.
+    pub bias: DepthBias,
+}
+
+/// Polygon offset. In reverse-Z what is added brings nearer, what is taken away pushes back.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize)]
+pub struct DepthBias {
+    /// In the least steps that the depth format tells apart (OpenGL's `units`).
+    pub constant: i32,
+    /// Times the triangle's steepest slope in depth (OpenGL's `factor`).
+    pub slope: i32,
+}
+
+impl DepthBias {
+    /// Depth as it is.
+    pub const NONE: Self = Self { constant: 0, slope: 0 };
 }
 
 impl Depth {
     /// The first pass over opaque surfaces: the nearest wins and stays.
-    pub const LAY: Self = Self { compare: Compare::Greater, write: true };
+    pub const LAY: Self = Self::plain(Compare::Greater, true);
     /// Surfaces drawn again: only the very fragments that laid the depth pass.
-    pub const SAME_SURFACE: Self = Self { compare: Compare::Equal, write: false };
+    pub const SAME_SURFACE: Self = Self::plain(Compare::Equal, false);
     /// Shadow volumes and other things that must be nearer than the surface, and leave it alone.
-    pub const NEARER: Self = Self { compare: Compare::Greater, write: false };
+    pub const NEARER: Self = Self::plain(Compare::Greater, false);
     /// Lines that lie on the surface.
-    pub const ON_OR_NEARER: Self = Self { compare: Compare::GreaterEqual, write: false };
+    pub const ON_OR_NEARER: Self = Self::plain(Compare::GreaterEqual, false);
     /// Light caps whose own surface is surely in the depth buffer: they can never be nearer, so the
     /// test that would decide by equality is not asked (DESIGN section 4).
-    pub const NEVER: Self = Self { compare: Compare::Never, write: false };
+    pub const NEVER: Self = Self::plain(Compare::Never, false);
     /// Full-screen steps: depth has no say.
-    pub const IGNORE: Self = Self { compare: Compare::Always, write: false };
+    pub const IGNORE: Self = Self::plain(Compare::Always, false);
+
+    const fn plain(compare: Compare, write: bool) -> Self {
+        Self { compare, write, bias: DepthBias::NONE }
+    }
+
+    /// The same, pushed back or brought nearer.
+    #[must_use]
+    pub const fn with_bias(self, bias: DepthBias) -> Self {
+        Self { bias, ..self }
+    }
 }
 
 /// How a fragment's colour meets what is there.
@@ -71,6 +101,8 @@ pub enum Cull {
     None,
     /// What is seen from behind is left out.
     Back,
+    /// What is seen from the front is left out.
+    Front,
 }
 
 /// Which winding is the front on screen.

@@ -35,6 +35,16 @@ pub enum StencilOp {
     IncrementWrap,
     /// One less, wrapping.
     DecrementWrap,
+    /// One more, but never past the byte's largest value: the old operation, which loses counts.
+    IncrementClamp,
+    /// One less, but never below zero.
+    DecrementClamp,
+    /// Becomes zero.
+    Zero,
+    /// Becomes the reference.
+    Replace,
+    /// All bits turn over.
+    Invert,
 }
 
 /// Test and operations for one side of a triangle.
@@ -170,6 +180,8 @@ fn compare_words(compare: Compare) -> &'static str {
         Compare::Always => "anything",
         Compare::Equal => "the count",
         Compare::NotEqual => "not the count",
+        Compare::Less => "below the count",
+        Compare::LessEqual => "the count or below",
         Compare::Greater => "above the count",
         Compare::GreaterEqual => "the count or above",
     }
@@ -180,5 +192,10 @@ fn op_words(op: StencilOp) -> &'static str {
         Keep => "keep",
         IncrementWrap => "+1",
         DecrementWrap => "-1",
+        StencilOp::IncrementClamp => "+1 up to 255",
+        StencilOp::DecrementClamp => "-1 down to 0",
+        StencilOp::Zero => "0",
+        StencilOp::Replace => "the reference",
+        StencilOp::Invert => "inverted",
     }
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::{Display, Formatter, Result};
 
 use super::plan::FramePlan;
+use super::state::DepthBias;
 use super::step::{Action, Draw, DrawSet, Part};
 
 impl Display for FramePlan {
@@ -59,7 +60,11 @@ impl Display for FramePlan {
 
 fn describe(f: &mut Formatter<'_>, draw: &Draw) -> Result {
     let state = &draw.state;
-    let depth = format!("{:?}{}", state.depth.compare, if state.depth.write { ", written" } else { "" });
+    let bias = match state.depth.bias {
+        DepthBias::NONE => String::new(),
+        DepthBias { constant, slope } => format!(", offset by {constant} and {slope} x slope"),
+    };
+    let depth = format!("{:?}{}{bias}", state.depth.compare, if state.depth.write { ", written" } else { "" });
     let color = state.color.map_or("none".into(), |blend| format!("{blend:?}"));
     writeln!(f, "     {:?} to {:?}: {}", draw.program, draw.target, contents(&draw.set))?;
     writeln!(

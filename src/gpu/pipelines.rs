@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::context::{COLOR_FORMAT, Context, DEPTH_FORMAT, GpuError};
 use super::shaders::{Library, Override, Vertices, entry_of};
 use super::types::{Attributes, Draw, Frame, Light, Material, Object, Volume};
-use crate::frame::state::{Blend, Compare, Cull, NearPlane, State, Winding};
+use crate::frame::state::{Blend, Compare, Cull, DepthBias, NearPlane, State, Winding};
 use crate::frame::stencil::{StencilFace, StencilOp};
 use crate::frame::{LightShape, Look, Program, Target};
 
@@ -211,6 +211,7 @@ impl Pipelines {
                 cull_mode: match key.state.cull {
                     Cull::None => None,
                     Cull::Back => Some(wgpu::Face::Back),
+                    Cull::Front => Some(wgpu::Face::Front),
                 },
                 unclipped_depth: key.state.near_plane == NearPlane::Clamp,
                 ..Default::default()
@@ -308,8 +309,13 @@ fn depth_stencil(state: &State) -> wgpu::DepthStencilState {
             read_mask: state.stencil.read_mask.into(),
             write_mask: state.stencil.write_mask.into(),
         },
-        bias: wgpu::DepthBiasState::default(),
+        bias: depth_bias(state.depth.bias),
     }
+}
+
+fn depth_bias(bias: DepthBias) -> wgpu::DepthBiasState {
+    #[expect(clippy::cast_precision_loss, reason = "slopes are small whole numbers")]
+    wgpu::DepthBiasState { constant: bias.constant, slope_scale: bias.slope as f32, clamp: 0.0 }
 }
 
 fn stencil_face(face: &StencilFace) -> wgpu::StencilFaceState {
@@ -327,6 +333,8 @@ fn compare(compare: Compare) -> wgpu::CompareFunction {
         Compare::Always => wgpu::CompareFunction::Always,
         Compare::Equal => wgpu::CompareFunction::Equal,
         Compare::NotEqual => wgpu::CompareFunction::NotEqual,
+        Compare::Less => wgpu::CompareFunction::Less,
+        Compare::LessEqual => wgpu::CompareFunction::LessEqual,
         Compare::Greater => wgpu::CompareFunction::Greater,
         Compare::GreaterEqual => wgpu::CompareFunction::GreaterEqual,
     }
@@ -337,5 +345,10 @@ fn stencil_op(op: StencilOp) -> wgpu::StencilOperation {
         StencilOp::Keep => wgpu::StencilOperation::Keep,
         StencilOp::IncrementWrap => wgpu::StencilOperation::IncrementWrap,
         StencilOp::DecrementWrap => wgpu::StencilOperation::DecrementWrap,
+        StencilOp::IncrementClamp => wgpu::StencilOperation::IncrementClamp,
+        StencilOp::DecrementClamp => wgpu::StencilOperation::DecrementClamp,
+        StencilOp::Zero => wgpu::StencilOperation::Zero,
+        StencilOp::Replace => wgpu::StencilOperation::Replace,
+        StencilOp::Invert => wgpu::StencilOperation::Invert,
     }
 }
