@@ -128,19 +128,43 @@ pub struct LightEdit {
     pub shadows: Option<bool>,
 }
 
-/// How shadows are counted. [`crate::techniques::TABLE`] describes each.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Technique {
-    /// No shadows.
-    None,
-    /// Heidmann's: counts volume faces before the surface.
-    ZPass,
-    /// Carmack's reverse: counts volume faces behind the surface, caps and all.
-    #[default]
-    ZFail,
-    /// Sides only, counted from the eye's own count, exact at the near plane.
-    ExactZPass,
+/// An enum of choices whose names stand in one place only: on the command line, in files and here.
+macro_rules! named {
+    ($(#[$about:meta])* $Choice:ident { $($(#[$doc:meta])* $variant:ident = $name:literal,)* }) => {
+        $(#[$about])*
+        #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+        pub enum $Choice {
+            $($(#[$doc])* #[serde(rename = $name)] $variant,)*
+        }
+
+        impl $Choice {
+            /// Every one, in the order people see them.
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$variant),*];
+
+            /// The name on the command line and in files.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)*
+                }
+            }
+        }
+    };
+}
+
+named! {
+    /// How shadows are counted. [`crate::techniques::TABLE`] describes each.
+    Technique {
+        /// No shadows.
+        None = "none",
+        /// Heidmann's: counts volume faces before the surface.
+        ZPass = "z-pass",
+        /// Carmack's reverse: counts volume faces behind the surface, caps and all.
+        #[default]
+        ZFail = "z-fail",
+        /// Sides only, counted from the eye's own count, exact at the near plane.
+        ExactZPass = "exact-z-pass",
+    }
 }
 
 /// What is shown.
@@ -159,22 +183,6 @@ pub enum Show {
     Volumes,
     /// The picture with every triangle's edges.
     Wireframe,
-}
-
-impl Technique {
-    /// Every technique, in the order people see them.
-    pub const ALL: [Self; 4] = [Self::None, Self::ZPass, Self::ZFail, Self::ExactZPass];
-
-    /// The name on the command line and in files.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::ZPass => "z-pass",
-            Self::ZFail => "z-fail",
-            Self::ExactZPass => "exact-z-pass",
-        }
-    }
 }
 
 impl Show {

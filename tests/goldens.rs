@@ -46,6 +46,9 @@ fn compare(name: &str, found: &RgbaImage) -> Result<(), String> {
     Err(format!("{name}: {wrong} pixels differ ({:.2} %); found {}", share * 100.0, kept.display()))
 }
 
+/// The other techniques are held to these by their stencil values.
+const BASIC: [Technique; 4] = [Technique::None, Technique::ZPass, Technique::ZFail, Technique::ExactZPass];
+
 #[test]
 fn every_stock_scene_and_technique_looks_as_it_did() {
     let mut stage = Stage::new();
@@ -53,7 +56,7 @@ fn every_stock_scene_and_technique_looks_as_it_did() {
     for row in stock::TABLE {
         let scene = stock::build(row.name).unwrap().unwrap();
         stage.set_scene(&scene);
-        for technique in Technique::ALL {
+        for technique in BASIC {
             let settings = Settings { technique, size: SIZE, time: 1.0, ..Settings::default() };
             let shot = stage.shoot(&settings, &scene);
             faults.extend(compare(&format!("{}-{}", row.name, technique.name()), &shot.image).err());

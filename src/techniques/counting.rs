@@ -1,7 +1,8 @@
 //! From one decision per caster to the steps that put a light's count into the stencil.
 //!
 //! Every volume's parts are grouped by the state they need (method, part, winding), so that a frame
-//! has a handful of counting steps a light however many casters there are.
+//! has a handful of counting steps a light however many casters there are. Which states those are
+//! the technique says: its [`Group`]s.
 
 use std::cell::OnceCell;
 
@@ -160,7 +161,7 @@ pub fn count_light(
     }) & budget.count_mask;
 
     let mut steps = Vec::new();
-    for group in GROUPS {
+    for group in row.groups.iter().copied().flatten() {
         for winding in [Winding::Ccw, Winding::Cw] {
             let parts: Vec<_> = volumes
                 .iter()
@@ -179,84 +180,43 @@ pub fn count_light(
     LightCount { base, steps }
 }
 
-/// Parts of volumes that are counted by the same state.
-struct Group {
-    method: Method,
-    parts: &'static [Part],
-    label: &'static str,
-    why: &'static str,
-    stencil: fn(BitBudget) -> StencilState,
-    depth: Depth,
-    near_plane: NearPlane,
+/// Parts of volumes that are counted by the same state: one step for each winding.
+pub struct Group {
+    /// Whose parts.
+    pub method: Method,
+    /// Which of them.
+    pub parts: &'static [Part],
+    /// A few words, for the step.
+    pub label: &'static str,
+    /// One sentence, for the step.
+    pub why: &'static str,
+    /// Which shaders.
+    pub program: Program,
+    /// Test and operations.
+    pub stencil: fn(BitBudget) -> StencilState,
+    /// The depth test.
+    pub depth: Depth,
+    /// Which side is left out.
+    pub cull: Cull,
+    /// What happens before the near plane.
+    pub near_plane: NearPlane,
 }
 
-const GROUPS: [Group; 7] = [
-    Group {
-        method: Method::ZPass,
-        parts: &[Part::Sides],
-        label: "count sides, z-pass",
-        why: "Faces before the surface: entering counts up, leaving counts down.",
-        stencil: StencilState::count_z_pass,
-        depth: Depth::NEARER,
-        near_plane: NearPlane::Clip,
-    },
-    Group {
-        method: Method::ExactZPass,
-        parts: &[Part::Sides],
-        label: "count sides, exact z-pass",
-        why: "Faces before the surface, under depth clamp so that the near plane cuts none off; the stencil starts at the eye's count.",
-        stencil: StencilState::count_z_pass,
-        depth: Depth::NEARER,
-        near_plane: NearPlane::Clamp,
-    },
-    Group {
-        method: Method::ZFail,
-        parts: &[Part::Sides, Part::DarkCap],
-        label: "count sides and dark caps, z-fail",
-        why: "Faces behind the surface, from infinity towards the eye.",
-        stencil: StencilState::count_z_fail,
-        depth: Depth::NEARER,
-        near_plane: NearPlane::Clip,
-    },
-    Group {
-        method: Method::ZFail,
-        parts: &[Part::LightCapKept],
-        label: "count light caps, z-fail",
-        why: "The caster's own surface is in the depth buffer, so its light cap can never be nearer: it counts everywhere.",
-        stencil: StencilState::count_z_fail,
-        depth: Depth::NEVER,
-        near_plane: NearPlane::Clip,
-    },
-    Group {
-        method: Method::ZFail,
-        parts: &[Part::LightCapTurned],
-        label: "count turned light caps, z-fail",
-        why: "Triangles of open casters that face away from the light cast too: the same order of vertices, the operations swapped.",
-        stencil: StencilState::count_z_fail_turned,
-        depth: Depth::NEVER,
-        near_plane: NearPlane::Clip,
-    },
-    Group {
-        method: Method::ZFailCompared,
-        parts: &[Part::Sides, Part::DarkCap, Part::LightCapKept],
-        label: "count whole volumes, z-fail",
-        why: "The caster's surface may be missing from the depth buffer, so its light cap is compared with depth.",
-        stencil: StencilState::count_z_fail,
-        depth: Depth::NEARER,
-        near_plane: NearPlane::Clip,
-    },
-    Group {
-        method: Method::ZFailCompared,
-        parts: &[Part::LightCapTurned],
-        label: "count turned light caps, z-fail, compared",
-        why: "Triangles of open casters turned to face the light: the same order of vertices, the operations swapped.",
-        stencil: StencilState::count_z_fail_turned,
-        depth: Depth::NEARER,
-        near_plane: NearPlane::Clip,
-    },
-];
-
 impl Group {
+    /// What groups mostly are: volumes drawn from both sides, faces before the surface told from
+    /// those behind. Not a group by itself.
+    pub const PLAIN: Self = Self {
+        method: Method::Dropped,
+        parts: &[],
+        label: "",
+        why: "",
+        program: Program::Volume,
+        stencil: |_| StencilState::IGNORE,
+        depth: Depth::NEARER,
+        cull: Cull::None,
+        near_plane: NearPlane::Clip,
+    };
+
     fn step(&self, light: usize, winding: Winding, scissor: [u32; 4], budget: BitBudget, parts: Vec<VolumePart>) -> Step {
         let mirrored = if winding == Winding::Cw { ", mirrored" } else { "" };
         Step {
@@ -264,14 +224,14 @@ impl Group {
             why: self.why.into(),
             view: 0,
             action: Action::Draw(Box::new(Draw {
-                program: Program::Volume,
+                program: self.program,
                 look: Look::default(),
                 target: Target::Scene,
                 state: State {
                     depth: self.depth,
                     stencil: (self.stencil)(budget),
                     color: None,
-                    cull: Cull::None,
+                    cull: self.cull,
                     winding,
                     near_plane: self.near_plane,
                 },

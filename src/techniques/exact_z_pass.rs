@@ -19,8 +19,10 @@
 //! Usta et al. (HPG 2019) describe an artefact-free z-pass with the same aim; only its abstract was
 //! at hand.
 
-use super::{Caster, Row, z_fail};
-use crate::frame::{Method, Reason};
+use super::{Caster, Group, Row, z_fail};
+use crate::frame::state::NearPlane;
+use crate::frame::stencil::StencilState;
+use crate::frame::{Method, Part, Reason};
 use crate::settings::Technique;
 
 pub(super) const ROW: Row = Row {
@@ -30,7 +32,18 @@ pub(super) const ROW: Row = Row {
     exact: true,
     source: "this project; after Heidmann 1991 and Lengyel 2002; aim as in Usta et al. 2019",
     decide: |caster| Some(decide(caster)),
+    groups: &[GROUPS, z_fail::GROUPS],
 };
+
+const GROUPS: &[Group] = &[Group {
+    method: Method::ExactZPass,
+    parts: &[Part::Sides],
+    label: "count sides, exact z-pass",
+    why: "Faces before the surface, under depth clamp so that the near plane cuts none off; the stencil starts at the eye's count.",
+    stencil: StencilState::count_z_pass,
+    near_plane: NearPlane::Clamp,
+    ..Group::PLAIN
+}];
 
 fn decide(caster: &Caster<'_>) -> (Method, Reason) {
     match z_fail::decide(caster) {

@@ -1,8 +1,12 @@
 //! The table of techniques: one row, one file, one shader twin each.
 //!
 //! A counting technique decides, for one light, how each caster's shadow volume is counted
-//! ([`crate::frame::Method`]) and why; [`counting`] turns those decisions into steps. What all
-//! techniques share lives there, what makes each different lives in its own file.
+//! ([`crate::frame::Method`]) and why, and brings the states that the parts of such volumes are
+//! counted with ([`Group`]); [`counting`] turns both into steps. What all techniques share lives
+//! there, what makes each different lives in its own file.
+//!
+//! A further technique is a line in [`Technique`], a file here with its `ROW`, and its name in
+//! [`TABLE`]; panel, command line, lists and the tour read those.
 
 pub mod counting;
 mod exact_z_pass;
@@ -15,7 +19,7 @@ mod z_pass;
 use crate::frame::{Method, Reason};
 use crate::settings::Technique;
 
-pub use counting::Caster;
+pub use counting::{Caster, Group};
 
 /// One technique, for people and for the director.
 pub struct Row {
@@ -31,20 +35,19 @@ pub struct Row {
     pub source: &'static str,
     /// How one caster is counted, and why; `None` leaves all shadows out.
     pub decide: fn(&Caster<'_>) -> Option<(Method, Reason)>,
+    /// The states that its volumes' parts are counted with, in order; those of a technique that it
+    /// falls back on among them.
+    pub groups: &'static [&'static [Group]],
 }
 
 /// Every technique, in the order of [`Technique::ALL`].
-pub static TABLE: [Row; 4] = [none::ROW, z_pass::ROW, z_fail::ROW, exact_z_pass::ROW];
+pub static TABLE: &[Row] = &[none::ROW, z_pass::ROW, z_fail::ROW, exact_z_pass::ROW];
 
 /// The row of a technique.
 #[must_use]
 pub fn row(technique: Technique) -> &'static Row {
-    match technique {
-        Technique::None => &TABLE[0],
-        Technique::ZPass => &TABLE[1],
-        Technique::ZFail => &TABLE[2],
-        Technique::ExactZPass => &TABLE[3],
-    }
+    // A test holds every technique to a row of its own.
+    TABLE.iter().find(|row| row.technique == technique).unwrap_or(&none::ROW)
 }
 
 #[cfg(test)]

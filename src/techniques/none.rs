@@ -10,4 +10,5 @@ pub(super) const ROW: Row = Row {
     exact: false,
     source: "the baseline",
     decide: |_| None,
+    groups: &[],
 };

@@ -13,8 +13,10 @@
 //! before the near plane) the depth test must decide; cap and surface share vertex order and
 //! position arithmetic, so that equal depth is equal to the last bit.
 
-use super::{Caster, Row};
-use crate::frame::{Method, Reason};
+use super::{Caster, Group, Row};
+use crate::frame::state::Depth;
+use crate::frame::stencil::StencilState;
+use crate::frame::{Method, Part, Reason};
 use crate::settings::Technique;
 
 pub(super) const ROW: Row = Row {
@@ -24,7 +26,53 @@ pub(super) const ROW: Row = Row {
     exact: true,
     source: "Carmack 2000; McGuire et al. 2003, 3; Lengyel 2002, Rendering Shadow Volumes",
     decide: |caster| Some(decide(caster)),
+    groups: &[GROUPS],
 };
+
+pub(super) const GROUPS: &[Group] = &[
+    Group {
+        method: Method::ZFail,
+        parts: &[Part::Sides, Part::DarkCap],
+        label: "count sides and dark caps, z-fail",
+        why: "Faces behind the surface, from infinity towards the eye.",
+        stencil: StencilState::count_z_fail,
+        ..Group::PLAIN
+    },
+    Group {
+        method: Method::ZFail,
+        parts: &[Part::LightCapKept],
+        label: "count light caps, z-fail",
+        why: "The caster's own surface is in the depth buffer, so its light cap can never be nearer: it counts everywhere.",
+        stencil: StencilState::count_z_fail,
+        depth: Depth::NEVER,
+        ..Group::PLAIN
+    },
+    Group {
+        method: Method::ZFail,
+        parts: &[Part::LightCapTurned],
+        label: "count turned light caps, z-fail",
+        why: "Triangles of open casters that face away from the light cast too: the same order of vertices, the operations swapped.",
+        stencil: StencilState::count_z_fail_turned,
+        depth: Depth::NEVER,
+        ..Group::PLAIN
+    },
+    Group {
+        method: Method::ZFailCompared,
+        parts: &[Part::Sides, Part::DarkCap, Part::LightCapKept],
+        label: "count whole volumes, z-fail",
+        why: "The caster's surface may be missing from the depth buffer, so its light cap is compared with depth.",
+        stencil: StencilState::count_z_fail,
+        ..Group::PLAIN
+    },
+    Group {
+        method: Method::ZFailCompared,
+        parts: &[Part::LightCapTurned],
+        label: "count turned light caps, z-fail, compared",
+        why: "Triangles of open casters turned to face the light: the same order of vertices, the operations swapped.",
+        stencil: StencilState::count_z_fail_turned,
+        ..Group::PLAIN
+    },
+];
 
 /// Z-fail for one caster: how its light cap must be drawn.
 pub(super) fn decide(caster: &Caster<'_>) -> (Method, Reason) {

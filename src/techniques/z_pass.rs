@@ -14,8 +14,9 @@
 //! It is wrong, on purpose, where the near plane cuts a volume: faces before the near plane are
 //! clipped and go uncounted, so an eye that stands in a shadow starts with a wrong count.
 
-use super::Row;
-use crate::frame::{Method, Reason};
+use super::{Group, Row};
+use crate::frame::stencil::StencilState;
+use crate::frame::{Method, Part, Reason};
 use crate::settings::Technique;
 
 pub(super) const ROW: Row = Row {
@@ -25,4 +26,14 @@ pub(super) const ROW: Row = Row {
     exact: false,
     source: "Heidmann 1991; Kilgard 1999, 6; Lengyel 2002, Rendering Shadow Volumes",
     decide: |_| Some((Method::ZPass, Reason::Technique)),
+    groups: &[GROUPS],
 };
+
+const GROUPS: &[Group] = &[Group {
+    method: Method::ZPass,
+    parts: &[Part::Sides],
+    label: "count sides, z-pass",
+    why: "Faces before the surface: entering counts up, leaving counts down.",
+    stencil: StencilState::count_z_pass,
+    ..Group::PLAIN
+}];

@@ -4,26 +4,29 @@ use egui::{RichText, Ui};
 
 use super::style::{self, explain, field, slider};
 use super::{Desk, View};
+use crate::app::keys::{Command, key_of};
 use crate::settings::Show;
 use crate::techniques::TABLE;
 
-/// The techniques, each with its sentence.
+/// The techniques; the chosen one with its sentence.
 pub fn techniques(ui: &mut Ui, desk: &mut Desk<'_>) {
     ui.spacing_mut().item_spacing.y = 2.0;
-    for (index, row) in TABLE.iter().enumerate() {
+    for row in TABLE {
         let chosen = desk.settings.technique == row.technique;
         let title = RichText::new(row.title).strong();
         let title = if chosen { title.color(style::ACCENT) } else { title };
-        let response =
-            ui.radio(chosen, title).on_hover_text(format!("{}\nSource: {}\nKey: {}", row.about, row.source, index + 1));
+        let key = key_of(Command::Technique(row.technique)).map(|key| format!("\nKey: {key}")).unwrap_or_default();
+        let response = ui.radio(chosen, title).on_hover_text(format!("{}\nSource: {}{key}", row.about, row.source));
         if response.clicked() {
             desk.settings.technique = row.technique;
         }
-        ui.horizontal(|ui| {
-            ui.add_space(ui.spacing().icon_width + ui.spacing().icon_spacing - 6.0);
-            explain(ui, row.about);
-        });
-        ui.add_space(3.0);
+        if chosen {
+            ui.horizontal(|ui| {
+                ui.add_space(ui.spacing().icon_width + ui.spacing().icon_spacing - 6.0);
+                explain(ui, row.about);
+            });
+            ui.add_space(3.0);
+        }
     }
 }
 
