@@ -4,6 +4,7 @@ pub mod bounds;
 pub mod ending;
 pub mod eye_count;
 pub mod frustum;
+pub mod overlap;
 pub mod silhouette;
 pub mod terminator;
 pub mod topology;

@@ -21,6 +21,7 @@ use glam::{DVec3, Vec3};
 use serde::Serialize;
 
 use super::Weld;
+use super::overlap::is_convex;
 
 /// Most vertices, and most indices, of a mesh. A volume has up to eight indices for each index of
 /// its mesh, and for several lights they stand in one buffer: all are to be numbered by 32 bits.
@@ -36,6 +37,7 @@ pub struct Topology {
     pairs: PairEdges,
     others: OtherEdges,
     report: TopologyReport,
+    convex: bool,
 }
 
 /// Edges with exactly two triangles, one in each direction: all there are in a solid mesh. Arrays
@@ -129,6 +131,7 @@ impl Topology {
         topology.report.welded_vertices = topology.weld.len();
         topology.find_edges();
         topology.find_solids(positions);
+        topology.convex = is_convex(&topology, positions);
         topology
     }
 
@@ -276,6 +279,12 @@ impl Topology {
     #[must_use]
     pub fn others(&self) -> &OtherEdges {
         &self.others
+    }
+
+    /// As it was built it is one convex solid ([`is_convex`]): its volumes wind around no point twice.
+    #[must_use]
+    pub fn convex(&self) -> bool {
+        self.convex
     }
 
     /// What the mesh is made of.

@@ -1,4 +1,5 @@
 //! Random solids and soups, and slow, plain answers to what volumes should count.
+#![allow(dead_code, reason = "each test binary uses a part")]
 
 use std::ops::Range;
 
