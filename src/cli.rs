@@ -11,6 +11,7 @@
 mod command_line;
 mod input;
 mod light_edit;
+mod lighting;
 
 pub use command_line::render_command;
 pub use input::{InputError, MAX_COORDINATE, MAX_EXPOSURE, check, check_against};
@@ -296,9 +297,11 @@ struct PictureArguments {
     #[arg(long)]
     no_smooth_terminator: bool,
     /// Changes light K, such as "0:on=false" or
-    /// "1:position=0;3;0,color=1;0.5;0.2,intensity=40,range=12,shadows=true"; can be repeated
+    /// "1:position=0;3;0,color=1;0.5;0.2,intensity=40,range=12,shadows=true,radius=0.3,slide=window"; can be repeated
     #[arg(long, value_name = "K:WHAT=VALUE,...", value_parser = light_edit::parse)]
     light_edit: Vec<(usize, LightEdit)>,
+    #[command(flatten)]
+    lighting: lighting::LightingArguments,
     /// The graphics adapter: part of its name
     #[arg(long, value_name = "SUBSTRING", allow_hyphen_values = true)]
     adapter: Option<String>,
@@ -319,6 +322,7 @@ impl PictureArguments {
                 size: settings.size,
                 samples: settings.samples,
                 smooth_terminator: settings.smooth_terminator,
+                lighting: settings.lighting,
                 adapter: settings.adapter,
                 shaders: settings.shaders,
                 ..Settings::default()
@@ -348,6 +352,7 @@ impl PictureArguments {
         for (light, edit) in &self.light_edit {
             light_edit::merge(settings.lights.entry(*light).or_default(), edit);
         }
+        self.lighting.apply(&mut settings.lighting)?;
         settings.adapter = self.adapter.clone().or(settings.adapter);
         settings.shaders = self.shaders.clone().or(settings.shaders);
         check(&settings)?;

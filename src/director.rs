@@ -16,7 +16,7 @@ use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, 
 use crate::geometry::Aabb;
 use crate::geometry::frustum::{NearPyramid, screen_rect};
 use crate::scene::pose::pose;
-use crate::scene::{Pose, Scene};
+use crate::scene::{Pose, Sampling, Scene};
 use crate::settings::{Settings, Show, Technique};
 use crate::techniques::{self, Caster, counting, show, surfaces};
 
@@ -38,10 +38,16 @@ pub enum StageError {
     /// The time is NaN, infinite or negative.
     #[error("the time must be a number of seconds from 0 on, not {0}")]
     Time(f64),
+    /// Lights with a size, each counted as many points.
+    #[error("{0} points of lights are too many: {MOST_POINTS} at most; fewer points a light (--area-samples) are fewer")]
+    Points(usize),
     /// A fault in the plan: a bug in this program, caught before the GPU sees it.
     #[error("the frame plan is faulty: {0}")]
     Plan(#[from] Fault),
 }
+
+/// Points of lights in one frame: each is counted by itself.
+const MOST_POINTS: usize = 2048;
 
 /// The scene at the settings' time, and the validated plan of its frame.
 ///
@@ -63,7 +69,13 @@ pub fn stage(settings: &Settings, scene: &Scene, capabilities: &Capabilities) ->
     if looks_at_light && settings.light >= scene.lights.len() {
         return Err(StageError::Light(settings.light, scene.lights.len()));
     }
-    let pose = pose(scene, settings.time, settings.animation.unwrap_or(scene.default_animation), &settings.lights);
+    let mut pose = pose(scene, settings.time, settings.animation.unwrap_or(scene.default_animation), &settings.lights);
+    let sampling = Sampling { samples: settings.lighting.area_samples, frame: 0, frames: 1 };
+    let points = pose.lights.iter().map(|light| sampling.points(light) as usize).sum();
+    if points > MOST_POINTS {
+        return Err(StageError::Points(points));
+    }
+    pose.expand_lights(sampling, settings.light, settings.lighting.light_sample);
     let camera = Camera::choose(settings, scene, &pose)?;
     let plan = plan(settings, scene, &pose, camera, capabilities);
     validate(&plan)?;
@@ -123,7 +135,7 @@ pub fn plan(settings: &Settings, scene: &Scene, pose: &Pose, camera: Camera, cap
                 frame.extend(surfaces::lit(
                     &groups,
                     light,
-                    pose.lights[light].kind.into(),
+                    (&pose.lights[light]).into(),
                     scissor,
                     stencil,
                     &frame.reached(light),
@@ -177,6 +189,7 @@ impl<'a> Frame<'a> {
             views: vec![View { name: "eye".into(), camera, winding: Winding::Ccw }],
             volumes: Vec::new(),
             steps: Vec::new(),
+            points: pose.lights.iter().map(|light| light.of).collect(),
             notes,
         };
         let near_pyramid = NearPyramid::of(camera.eye, camera.near_rectangle());

@@ -3,13 +3,17 @@
 //! The panel edits a [`Settings`], the command line fills one, tests build one; it knows neither
 //! wgpu nor egui, and nothing flows back into it from the renderer.
 
+mod lighting;
+
+pub use lighting::{Accumulation, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
+
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::scene::AnimationChoice;
+use crate::scene::{AnimationChoice, BuiltInSlide};
 
 /// The whole choice: which scene, seen from where, drawn how.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -44,6 +48,8 @@ pub struct Settings {
     pub exposure: f32,
     /// What was changed of the scene's lights, by light index.
     pub lights: BTreeMap<usize, LightEdit>,
+    /// How the frame's light comes together.
+    pub lighting: Lighting,
     /// Part of the name of the adapter to use.
     pub adapter: Option<String>,
     /// Shaders are read from here instead of the program, and again when they change.
@@ -67,6 +73,7 @@ impl Default for Settings {
             smooth_terminator: true,
             exposure: 0.0,
             lights: BTreeMap::new(),
+            lighting: Lighting::default(),
             adapter: None,
             shaders: None,
         }
@@ -126,6 +133,41 @@ pub struct LightEdit {
     pub on: Option<bool>,
     /// Casts shadows.
     pub shadows: Option<bool>,
+    /// Metres, instead of the light's own extent: a globe about a point light, a disc before a spot; 0 is a
+    /// point. Directional lights have none.
+    pub radius: Option<f32>,
+    /// What a spot projects.
+    pub slide: Option<SlideChoice>,
+}
+
+/// What a spot projects, instead of what the scene says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SlideChoice {
+    /// Nothing: a plain cone of light.
+    None,
+    /// One that is built in.
+    #[serde(untagged)]
+    BuiltIn(BuiltInSlide),
+}
+
+impl SlideChoice {
+    /// Every one, in the order people see them.
+    pub const ALL: [Self; 4] = [
+        Self::None,
+        Self::BuiltIn(BuiltInSlide::Window),
+        Self::BuiltIn(BuiltInSlide::StainedGlass),
+        Self::BuiltIn(BuiltInSlide::Grille),
+    ];
+
+    /// The name on the command line and in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::BuiltIn(slide) => slide.name(),
+        }
+    }
 }
 
 /// An enum of choices whose names stand in one place only: on the command line, in files and here.

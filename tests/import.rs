@@ -10,8 +10,8 @@ use gltf_files::{File, data_uri, png, shared};
 use obscura::geometry::Aabb;
 use obscura::scene::gltf::{add_floor, load, load_bytes};
 use obscura::scene::pose::pose;
-use obscura::scene::{AlphaMode, AnimationChoice, Interpolation, LightKind, Property, Scene, Transform, Wrap, doctor};
-use serde_json::json;
+use obscura::scene::{AlphaMode, AnimationChoice, Extent, Interpolation, LightKind, Property, Scene, Transform, Wrap, doctor};
+use serde_json::{Value, json};
 
 fn shared_scene(path: &str) -> Option<Scene> {
     Some(load(&shared(path)?).unwrap())
@@ -409,6 +409,45 @@ fn a_primitive_takes_only_the_vertices_it_uses() {
     let scene = import(&file);
     assert_eq!((scene.meshes[0].positions.len(), scene.meshes[0].indices.as_slice()), (4, &[0, 1, 2, 2, 1, 3][..]));
     assert_eq!(corners(&scene)[0][0].x, 299.0);
+}
+
+#[test]
+fn lights_with_a_size_and_with_a_slide() {
+    let mut file = File::triangle();
+    let spot = |extras: Value| json!({"type": "spot", "extras": extras});
+    file.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [
+        {"type": "point", "extras": {"radius": 0.5}},
+        spot(json!({"size": [2, 1], "projects": 0})),
+        {"type": "directional", "extras": {"radius": 0.5, "projects": 0}},
+        spot(json!({"radius": -1, "projects": 9})),
+    ]}});
+    file.json["images"] = json!([{"uri": "no-such-image.png"}]);
+    file.json["textures"] = json!([{"source": 0}]);
+    let light = |light: usize| json!({"extensions": {"KHR_lights_punctual": {"light": light}}});
+    let nodes = file.json["nodes"].as_array_mut().unwrap();
+    nodes.extend((0..4).map(light));
+    nodes.push(json!({"extensions": {"KHR_lights_punctual": {"light": 0}}, "extras": {"radius": 2}}));
+    file.json["scenes"] = json!([{"nodes": [0, 1, 2, 3, 4, 5]}]);
+    let scene = import(&file);
+    let lights: Vec<_> = scene.lights.iter().map(|light| (light.extent, light.slide)).collect();
+    assert_eq!(
+        lights,
+        [
+            (Extent::Round(0.5), None),
+            (Extent::Rectangle([2.0, 1.0]), Some(0)),
+            (Extent::Point, None),
+            (Extent::Point, None),
+            (Extent::Round(2.0), None),
+        ],
+        "what a node says goes before what its light says"
+    );
+    assert_eq!(scene.textures.len(), 1, "a checker stands in for the image that is not there");
+    let warnings = scene.warnings.join("\n");
+    for said in
+        ["light 2: it is directional", "light 2: only spots project", "light 3: its size", "light 3: it projects texture 9"]
+    {
+        assert!(warnings.contains(said), "{said}: {warnings}");
+    }
 }
 
 #[test]

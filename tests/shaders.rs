@@ -91,14 +91,25 @@ fn shared_structs_have_the_same_layout() {
         "lit.wgsl",
         "Frame",
         types::Frame,
-        [eye, exposure, ambient_sky, smooth_terminator, ambient_ground, light_count, background_top, background_bottom, size]
+        [
+            eye,
+            exposure,
+            ambient_sky,
+            smooth_terminator,
+            ambient_ground,
+            light_count,
+            background_top,
+            pixel,
+            background_bottom,
+            size
+        ]
     );
     same_layout!("lit.wgsl", "Object", types::Object, [clip_from_object, world_from_object, normal_from_object]);
     same_layout!(
         "lit.wgsl",
         "Light",
         types::Light,
-        [position, inverse_range_squared, direction, cos_outer, intensity, inverse_cone_width, kind]
+        [position, inverse_range_squared, direction, cos_outer, intensity, inverse_cone_width, right, kind, slide, slide_scale]
     );
     same_layout!("volume.wgsl", "Volume", types::Volume, [light_in_object, end_in_object, object]);
     same_layout!("volume.wgsl", "Draw", types::Draw, [constant, light]);

@@ -48,6 +48,7 @@ impl Bench {
             color: Vec3::new(1.0, 0.5, 0.25),
             intensity: 40.0,
             range: 12.0,
+            ..Light::default()
         };
         let camera = |name: &str, node, vertical_fov| scene::Camera {
             name: name.into(),
@@ -65,14 +66,13 @@ impl Bench {
             ..Scene::default()
         };
         let world_from_node: Vec<_> = places.into_iter().map(DAffine3::from_translation).collect();
-        let lights = scene.lights.iter().map(|light| PosedLight {
+        let lights = scene.lights.iter().enumerate().map(|(of, light)| PosedLight {
+            of,
             position: places[light.node],
-            direction: DVec3::NEG_Z,
-            kind: light.kind,
+            center: places[light.node],
             intensity: light.color * light.intensity,
             range: f64::from(light.range),
-            on: true,
-            shadows: true,
+            ..PosedLight::default()
         });
         let pose =
             Pose { lights: lights.collect(), world_from_object: world_from_node.clone(), world_from_node, ..Pose::default() };

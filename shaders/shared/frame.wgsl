@@ -8,7 +8,7 @@ struct Frame {
     ambient_ground: vec3f,      // linear radiance on surfaces that look down
     light_count: u32,
     background_top: vec3f,      // linear
-    _pad0: f32,
+    pixel: f32,                 // metres, one metre before the eye
     background_bottom: vec3f,   // linear
     _pad1: f32,
     size: vec2f,                // pixels
@@ -24,6 +24,7 @@ struct Object {
 const POINT: u32 = 0u;
 const DIRECTIONAL: u32 = 1u;
 const SPOT: u32 = 2u;
+const PROJECTOR: u32 = 3u;      // a spot with a slide
 
 struct Light {
     position: vec3f,            // world space
@@ -32,10 +33,12 @@ struct Light {
     cos_outer: f32,
     intensity: vec3f,           // linear RGB: candela, or lux
     inverse_cone_width: f32,    // 1 / (cos inner - cos outer)
+    right: vec3f,               // unit, square to the direction: to the right of what it projects
     kind: u32,
+    slide: u32,                 // a layer of `slides`
+    slide_scale: f32,           // slide halves a metre beside the axis, one metre before the light
     _pad0: u32,
     _pad1: u32,
-    _pad2: u32,
 }
 
 struct Volume {
@@ -59,6 +62,8 @@ struct Draw {
 @group(0) @binding(2) var<storage, read> lights: array<Light>;
 @group(0) @binding(3) var<storage, read> volumes: array<Volume>;
 @group(0) @binding(4) var<uniform> draw: Draw;
+@group(0) @binding(5) var slides: texture_2d_array<f32>;
+@group(0) @binding(6) var slide_sampler: sampler;
 
 // THE clip position: surfaces and volumes alike come through here, so that what is at the same
 // place has the same depth to the last bit (DESIGN section 3).

@@ -73,6 +73,18 @@ fn ambient_light(base: vec3f, up: f32) -> vec3f {
 
 const PI: f32 = 3.14159265;
 
+// What a projector's slide lets through on the way `away`, which leads from the light to the surface.
+fn through_slide(light: Light, away: vec3f, from_eye: f32) -> vec3f {
+    let along = max(dot(away, light.direction), 1e-6);
+    let down = cross(light.direction, light.right);
+    // -1 to 1 over the slide, u to the right, v downward.
+    let at = vec2f(dot(away, light.right), dot(away, down)) * (light.slide_scale / along);
+    // A pixel's size in texels says which level is fine enough.
+    let texels = frame.pixel * from_eye * light.slide_scale / along * 0.5 * f32(textureDimensions(slides).x);
+    let color = textureSampleLevel(slides, slide_sampler, at * 0.5 + 0.5, light.slide, log2(max(texels, 1.0))).rgb;
+    return select(vec3f(0.0), color, all(abs(at) <= vec2f(1.0)));
+}
+
 // Radiance towards the eye from one light, before shadows. `kind` is a constant where it can be.
 fn light_on_surface(light: Light, kind: u32, base: vec3f, point: SurfacePoint, normal: vec3f) -> vec3f {
     var offset = -light.direction;
@@ -91,7 +103,7 @@ fn light_on_surface(light: Light, kind: u32, base: vec3f, point: SurfacePoint, n
         let window = saturate(1.0 - fraction * fraction);
         weight = facing * window * window / (distance_squared * (1.0 - point.sin_bound));
     }
-    if kind == SPOT {
+    if kind == SPOT || kind == PROJECTOR {
         let along = -dot(offset, light.direction) * inverseSqrt(distance_squared);
         let cone = saturate((along - light.cos_outer) * light.inverse_cone_width);
         weight *= cone * cone;
@@ -108,5 +120,9 @@ fn light_on_surface(light: Light, kind: u32, base: vec3f, point: SurfacePoint, n
         let lobe = (shininess + 8.0) / (8.0 * PI) * pow(max(height, 1e-4), shininess);
         reflected = reflected * (1.0 - material.metallic) + reflectance * lobe;
     }
-    return reflected * light.intensity * weight;
+    var intensity = light.intensity;
+    if kind == PROJECTOR {
+        intensity *= through_slide(light, -offset, distance(point.world, frame.eye));
+    }
+    return reflected * intensity * weight;
 }

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{light_edit, needs_dot};
+use super::{light_edit, lighting as lighting_options, needs_dot};
 use crate::scene::AnimationChoice;
 use crate::settings::{CameraChoice, SceneChoice, Settings};
 
@@ -30,6 +30,7 @@ pub fn render_command(settings: &Settings) -> String {
         smooth_terminator,
         exposure,
         lights,
+        lighting,
         adapter,
         shaders,
     } = settings;
@@ -92,6 +93,7 @@ pub fn render_command(settings: &Settings) -> String {
     for (light, edit) in lights {
         line.option("--light-edit", &light_edit::format(*light, edit));
     }
+    lighting_options::write(lighting, &mut line);
     if let Some(adapter) = adapter {
         line.option("--adapter", adapter);
     }
@@ -103,12 +105,12 @@ pub fn render_command(settings: &Settings) -> String {
 
 /// Words of a command line, quoted.
 #[derive(Default)]
-struct Line {
+pub(super) struct Line {
     text: String,
 }
 
 impl Line {
-    fn word(&mut self, word: &str) {
+    pub fn word(&mut self, word: &str) {
         // A NUL can stand neither in a path nor in a command line.
         let word = word.replace('\0', "");
         if !self.text.is_empty() {
@@ -118,7 +120,7 @@ impl Line {
     }
 
     /// The value joined to the name where it would be taken for another option.
-    fn option(&mut self, name: &str, value: &str) {
+    pub fn option(&mut self, name: &str, value: &str) {
         if value.starts_with('-') {
             self.word(&format!("{name}={value}"));
         } else {

@@ -3,8 +3,9 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use crate::scene::{AnimationChoice, Scene};
-use crate::settings::{CameraChoice, LightEdit, MAX_SIZE, Settings};
+use super::lighting;
+use crate::scene::{AnimationChoice, LightKind, Scene};
+use crate::settings::{CameraChoice, LightEdit, MAX_SIZE, Settings, SlideChoice};
 
 /// Coordinates beyond this are taken for mistakes: at a million kilometres a metre is less than
 /// single precision, which the GPU works in, can tell apart.
@@ -43,6 +44,26 @@ pub enum InputError {
     /// Not a count of samples that devices have.
     #[error("{0} samples a pixel are not possible: 1 or 4")]
     Samples(u32),
+    /// A whole number that is too small or too large.
+    #[error("{what} must be {least} to {most}, not {value}")]
+    Range {
+        /// Whose number.
+        what: &'static str,
+        /// What it was.
+        value: u32,
+        /// The smallest allowed.
+        least: u32,
+        /// The largest allowed.
+        most: u32,
+    },
+    /// Something that this kind of light has not.
+    #[error("light {light} {what}")]
+    LightKind {
+        /// Its index.
+        light: usize,
+        /// Why it cannot have what was asked for.
+        what: &'static str,
+    },
     /// NaN, infinite, or past all bounds.
     #[error("{what} must be a finite number{}, not {value}", limit(*.bound))]
     Number {
@@ -115,7 +136,8 @@ pub fn check(settings: &Settings) -> Result<(), InputError> {
     }
     at_least_zero("the time", settings.time)?;
     bounded("the exposure", f64::from(settings.exposure), Some(f64::from(MAX_EXPOSURE)))?;
-    settings.lights.iter().try_for_each(|(light, edit)| check_light(*light, edit))
+    settings.lights.iter().try_for_each(|(light, edit)| check_light(*light, edit))?;
+    lighting::check(&settings.lighting)
 }
 
 fn check_light(light: usize, edit: &LightEdit) -> Result<(), InputError> {
@@ -128,6 +150,9 @@ fn check_light(light: usize, edit: &LightEdit) -> Result<(), InputError> {
     }
     if let Some(intensity) = edit.intensity {
         at_least_zero(&of("intensity"), f64::from(intensity))?;
+    }
+    if let Some(radius) = edit.radius {
+        at_least_zero(&of("radius"), f64::from(radius))?;
     }
     // An infinite range is what glTF's lights have by default.
     match edit.range {
@@ -166,6 +191,18 @@ pub fn check_against(settings: &Settings, scene: &Scene) -> Result<(), InputErro
     // Light 0 is what is looked at when nobody chose one, also where there is none.
     if asked >= count && (asked > 0 || !settings.lights.is_empty()) {
         return Err(InputError::Index { kind: "light", index: asked, count });
+    }
+    for (&light, edit) in &settings.lights {
+        let refused = |what| Err(InputError::LightKind { light, what });
+        match scene.lights[light].kind {
+            LightKind::Directional if edit.radius.is_some_and(|radius| radius > 0.0) => {
+                return refused("is directional: it has no radius");
+            }
+            LightKind::Point | LightKind::Directional if edit.slide.is_some_and(|slide| slide != SlideChoice::None) => {
+                return refused("is no spot: only spots project slides");
+            }
+            _ => {}
+        }
     }
     if let Some(AnimationChoice::One(index)) = settings.animation
         && index >= scene.animations.len()

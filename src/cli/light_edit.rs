@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::{index, numbers};
-use crate::settings::LightEdit;
+use crate::settings::{LightEdit, SlideChoice};
 
 /// Reads a word such as `1:on=false,range=8`.
 pub(super) fn parse(text: &str) -> Result<(usize, LightEdit), String> {
@@ -23,7 +23,12 @@ pub(super) fn parse(text: &str) -> Result<(usize, LightEdit), String> {
             "color" => edit.color = Some(Vec3::from(numbers::<f32, 3>(value, ';').ok_or_else(|| wrong(three))?)),
             "intensity" => edit.intensity = Some(number()?),
             "range" => edit.range = Some(number()?),
-            _ => return Err(format!("`{name}` is not one of on, shadows, position, color, intensity, range")),
+            "radius" => edit.radius = Some(number()?),
+            "slide" => {
+                let known = SlideChoice::ALL.into_iter().find(|slide| slide.name() == value);
+                edit.slide = Some(known.ok_or_else(|| wrong(&SlideChoice::ALL.map(SlideChoice::name).join(", ")))?);
+            }
+            _ => return Err(format!("`{name}` is not one of on, shadows, position, color, intensity, range, radius, slide")),
         }
     }
     Ok((light, edit))
@@ -31,7 +36,7 @@ pub(super) fn parse(text: &str) -> Result<(usize, LightEdit), String> {
 
 /// Writes what [`parse`] reads; numbers keep every bit.
 pub(super) fn format(light: usize, edit: &LightEdit) -> String {
-    let LightEdit { position, color, intensity, range, on, shadows } = edit;
+    let LightEdit { position, color, intensity, range, on, shadows, radius, slide } = edit;
     let mut fields = Vec::new();
     let mut field = |name: &str, value: Option<String>| {
         if let Some(value) = value {
@@ -44,16 +49,20 @@ pub(super) fn format(light: usize, edit: &LightEdit) -> String {
     field("color", color.map(|c| format!("{};{};{}", c.x, c.y, c.z)));
     field("intensity", intensity.map(|intensity| intensity.to_string()));
     field("range", range.map(|range| range.to_string()));
+    field("radius", radius.map(|radius| radius.to_string()));
+    field("slide", slide.map(|slide| slide.name().into()));
     format!("{light}:{}", fields.join(","))
 }
 
 /// Lays `edit` over `under`: what it says wins, what it leaves out stays.
 pub(super) fn merge(under: &mut LightEdit, edit: &LightEdit) {
-    let LightEdit { position, color, intensity, range, on, shadows } = edit;
+    let LightEdit { position, color, intensity, range, on, shadows, radius, slide } = edit;
     under.position = position.or(under.position);
     under.color = color.or(under.color);
     under.intensity = intensity.or(under.intensity);
     under.range = range.or(under.range);
     under.on = on.or(under.on);
     under.shadows = shadows.or(under.shadows);
+    under.radius = radius.or(under.radius);
+    under.slide = slide.or(under.slide);
 }

@@ -8,7 +8,8 @@ use glam::Vec3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::scene::{Animation, Light, LightKind, Scene};
+use crate::scene::{Animation, BuiltInSlide, Light, Scene};
+use crate::settings::{Accumulation, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, SlideChoice, Texturing};
 
 fn command(line: &str) -> Result<Command, InputError> {
     parse(shlex::split(line).unwrap()).unwrap_or_else(|error| panic!("{line}: {error}")).command()
@@ -44,6 +45,8 @@ fn every_argument_reaches_its_setting() {
         "obscura render fox.glb --out a.png --technique z-pass --show stencil --light 2 --size 64x32 --samples 4 \
          --eye -1,2.5,3e2 --target 0,0,-1 --fov 33.5 --time 1.25 --animation 3 --floor --exposure -1.5 \
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
+         --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --light-sample 3 --accumulate 256 \
+         --accumulation 8-bit --texturing once --labels \
          --light-edit 1:on=true --adapter llvm --shaders wgsl",
     );
     let edit = LightEdit {
@@ -53,6 +56,8 @@ fn every_argument_reaches_its_setting() {
         range: Some(9.0),
         on: Some(true),
         shadows: Some(true),
+        radius: Some(0.5),
+        slide: Some(SlideChoice::BuiltIn(BuiltInSlide::StainedGlass)),
     };
     let expected = Settings {
         scene: SceneChoice::File("fox.glb".into()),
@@ -69,6 +74,14 @@ fn every_argument_reaches_its_setting() {
         smooth_terminator: false,
         exposure: -1.5,
         lights: BTreeMap::from([(1, edit)]),
+        lighting: Lighting {
+            area_samples: 16,
+            light_sample: 3,
+            accumulate: 256,
+            accumulation: Accumulation::EightBit,
+            texturing: Texturing::Once,
+            labels: true,
+        },
         adapter: Some("llvm".into()),
         shaders: Some("wgsl".into()),
     };
@@ -183,7 +196,7 @@ fn what_cannot_be_read_is_wrong_usage() {
 
 #[test]
 fn the_scene_must_have_the_lights_and_animations_asked_for() {
-    let light = Light { name: "sun".into(), node: 0, kind: LightKind::Point, color: Vec3::ONE, intensity: 1.0, range: 1.0 };
+    let light = Light { name: "sun".into(), ..Light::default() };
     let scene = Scene { lights: vec![light; 2], animations: vec![Animation::default()], ..Scene::default() };
     let says = |arguments: &str, scene: &Scene| {
         check_against(&settings(&format!("obscura render cubes --out a.png {arguments}")), scene)
@@ -267,14 +280,18 @@ fn any_edit() -> impl Strategy<Value = LightEdit> {
         some(range),
         any::<Option<bool>>(),
         any::<Option<bool>>(),
+        some(positive().prop_filter("finite", |x| x.is_finite()).boxed()),
+        prop::option::of(prop::sample::select(&SlideChoice::ALL[..])),
     )
-        .prop_map(|(position, color, intensity, range, on, shadows)| LightEdit {
+        .prop_map(|(position, color, intensity, range, on, shadows, radius, slide)| LightEdit {
             position,
             color: color.filter(|color: &Vec3| color.is_finite()),
             intensity,
             range,
             on,
             shadows,
+            radius,
+            slide,
         })
 }
 
@@ -296,8 +313,26 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         any::<bool>(),
         -MAX_EXPOSURE..MAX_EXPOSURE,
     );
+    let lighting = (
+        1..=MAX_AREA_SAMPLES,
+        1..=MAX_FRAMES,
+        prop::sample::select(&Accumulation::ALL[..]),
+        prop::sample::select(&Texturing::ALL[..]),
+        any::<bool>(),
+    )
+        .prop_flat_map(|(area_samples, accumulate, accumulation, texturing, labels)| {
+            (0..area_samples).prop_map(move |light_sample| Lighting {
+                area_samples,
+                light_sample,
+                accumulate,
+                accumulation,
+                texturing,
+                labels,
+            })
+        });
     let rest = (
         prop::collection::btree_map(any::<usize>(), any_edit(), 0..4),
+        lighting,
         prop::option::of(word()),
         prop::option::of(word().prop_filter("a folder", |path| !path.is_empty()).prop_map(PathBuf::from)),
     );
@@ -305,7 +340,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         |(
             (scene, floor, technique, show, light, size, samples),
             (camera, fov, time, animation, smooth_terminator, exposure),
-            (lights, adapter, shaders),
+            (lights, lighting, adapter, shaders),
         )| Settings {
             scene,
             floor,
@@ -321,6 +356,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             smooth_terminator,
             exposure,
             lights,
+            lighting,
             adapter,
             shaders,
         },

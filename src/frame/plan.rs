@@ -27,6 +27,9 @@ pub struct FramePlan {
     pub volumes: Vec<VolumePlan>,
     /// What is done, in order.
     pub steps: Vec<Step>,
+    /// For every light of the pose, the light of the scene that it is, or is a point of
+    /// ([`crate::scene::area`]).
+    pub points: Vec<usize>,
     /// What a user should know about this frame: replacements, limits.
     pub notes: Vec<String>,
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::state::State;
-use crate::scene::LightKind;
+use crate::scene::{LightKind, PosedLight};
 
 /// One entry of the plan, carried out in order.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -85,13 +85,16 @@ pub enum LightShape {
     Directional,
     /// A cone.
     Spot,
+    /// A cone with a picture in it.
+    Projector,
 }
 
-impl From<LightKind> for LightShape {
-    fn from(kind: LightKind) -> Self {
-        match kind {
+impl From<&PosedLight> for LightShape {
+    fn from(light: &PosedLight) -> Self {
+        match light.kind {
             LightKind::Point => Self::Point,
             LightKind::Directional => Self::Directional,
+            LightKind::Spot { .. } if light.slide.is_some() => Self::Projector,
             LightKind::Spot { .. } => Self::Spot,
         }
     }

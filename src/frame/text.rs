@@ -15,6 +15,9 @@ impl Display for FramePlan {
         for view in &self.views {
             writeln!(f, "view {}: front {:?}", view.name, view.winding)?;
         }
+        for (point, light) in self.points.iter().enumerate().filter(|(point, light)| point != *light) {
+            writeln!(f, "light {point}: a point of light {light}")?;
+        }
         for volume in &self.volumes {
             write!(
                 f,

@@ -5,6 +5,7 @@ use glam::{DAffine3, DMat3, DMat4, DVec4, Mat4, Vec3, Vec4};
 
 use super::context::{Context, GpuError};
 use super::scene_buffers::SceneBuffers;
+use super::slides::Slides;
 use super::types::{Draw, Frame, Light, Object, Volume};
 use crate::frame::{DrawSet, FramePlan, Part};
 use crate::geometry::ending::NEVER_ENDS;
@@ -26,6 +27,7 @@ pub struct FrameBuffers {
     pub indices: Growing,
     /// Where each planned volume's parts stand among them.
     pub volume_indices: Vec<VolumeIndices>,
+    slides: Slides,
     bind_group: Option<wgpu::BindGroup>,
     scratch: Scratch,
 }
@@ -91,6 +93,7 @@ impl Default for FrameBuffers {
             draws: Growing::new("draws", uniform),
             indices: Growing::new("volume indices", wgpu::BufferUsages::INDEX),
             volume_indices: Vec::new(),
+            slides: Slides::default(),
             bind_group: None,
             scratch: Scratch::default(),
         }
@@ -102,6 +105,12 @@ impl FrameBuffers {
     #[must_use]
     pub fn bind_group(&self) -> Option<&wgpu::BindGroup> {
         self.bind_group.as_ref()
+    }
+
+    /// Another scene was set: what was made for the one before is none of its business.
+    pub fn forget_scene(&mut self) {
+        self.slides.forget();
+        self.bind_group = None;
     }
 
     /// Builds and uploads everything the plan's steps will read.
@@ -124,10 +133,11 @@ impl FrameBuffers {
             return Err(GpuError::TooLarge(what));
         }
         self.describe_objects(plan, scene, pose);
+        let mut grown = self.slides.prepare(context, scene, pose);
         let scratch = &mut self.scratch;
         scratch.lights.clear();
         // Lights that are off have no intensity, so that indices stay the scene's.
-        scratch.lights.extend(pose.lights.iter().map(light));
+        scratch.lights.extend(pose.lights.iter().map(|posed| light(posed, &self.slides)));
         scratch.draws.clear();
         for (_, draw) in plan.draws() {
             let light = draw.light.and_then(|light| scratch.lights.get(light)).copied().unwrap_or_default();
@@ -137,7 +147,7 @@ impl FrameBuffers {
         }
         let frame = frame(plan, scene, pose);
 
-        let mut grown = self.frame.write(context, bytemuck::bytes_of(&frame), 0);
+        grown |= self.frame.write(context, bytemuck::bytes_of(&frame), 0);
         grown |= self.objects.write(context, cast_slice(&scratch.objects), size_of::<Object>());
         grown |= self.lights.write(context, cast_slice(&scratch.lights), size_of::<Light>());
         grown |= self.volumes.write(context, cast_slice(&scratch.volumes), size_of::<Volume>());
@@ -155,6 +165,7 @@ impl FrameBuffers {
             offset: 0,
             size: std::num::NonZeroU64::new(size_of::<Draw>() as u64),
         };
+        let (slides, slide_sampler) = self.slides.get()?;
         Some(context.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("frame"),
             layout,
@@ -164,6 +175,8 @@ impl FrameBuffers {
                 wgpu::BindGroupEntry { binding: 2, resource: self.lights.buffer()?.as_entire_binding() },
                 wgpu::BindGroupEntry { binding: 3, resource: self.volumes.buffer()?.as_entire_binding() },
                 wgpu::BindGroupEntry { binding: 4, resource: wgpu::BindingResource::Buffer(draws) },
+                wgpu::BindGroupEntry { binding: 5, resource: wgpu::BindingResource::TextureView(slides) },
+                wgpu::BindGroupEntry { binding: 6, resource: wgpu::BindingResource::Sampler(slide_sampler) },
             ],
         }))
     }
@@ -261,17 +274,19 @@ fn frame(plan: &FramePlan, scene: &Scene, pose: &Pose) -> Frame {
         ambient_ground: scene.environment.ambient_ground.to_array(),
         light_count: u32::try_from(pose.lights.len()).unwrap_or(u32::MAX),
         background_top: scene.environment.background[0].to_array(),
+        #[expect(clippy::cast_possible_truncation, reason = "the GPU works in f32")]
+        pixel: ((plan.views[0].camera.vertical_fov / 2.0).tan() * 2.0 / f64::from(plan.size[1])) as f32,
         background_bottom: scene.environment.background[1].to_array(),
         size,
         ..Frame::default()
     }
 }
 
-fn light(light: &PosedLight) -> Light {
+fn light(light: &PosedLight, slides: &Slides) -> Light {
     let (kind, inner, outer) = match light.kind {
         LightKind::Point => (0, 0.0, 0.0),
         LightKind::Directional => (1, 0.0, 0.0),
-        LightKind::Spot { inner, outer } => (2, inner, outer),
+        LightKind::Spot { inner, outer } => (if light.slide.is_some() { 3 } else { 2 }, inner, outer),
     };
     let range = light.range;
     #[expect(clippy::cast_possible_truncation, reason = "the GPU works in f32")]
@@ -284,6 +299,10 @@ fn light(light: &PosedLight) -> Light {
         intensity: if light.on { light.intensity } else { Vec3::ZERO }.to_array(),
         inverse_cone_width: 1.0 / (inner.cos() - outer.cos()).max(1e-4),
         kind,
-        _pad: [0; 3],
+        right: light.right.as_vec3().to_array(),
+        slide: light.slide.map_or(0, |slide| slides.layer(slide)),
+        // The slide's corners touch the outer cone; one of a half-space would be endless.
+        slide_scale: std::f32::consts::SQRT_2 / outer.clamp(1e-3, 1.55).tan(),
+        _pad: [0; 2],
     }
 }

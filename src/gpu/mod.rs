@@ -10,6 +10,7 @@ pub mod pipelines;
 pub mod readback;
 mod scene_buffers;
 pub mod shaders;
+mod slides;
 mod targets;
 mod texture;
 mod timing;
@@ -97,6 +98,7 @@ impl Renderer {
             return Err(GpuError::TooLarge(format!("it is out of memory: {error}")));
         }
         self.scene = Some(buffers?);
+        self.frame.forget_scene();
         Ok(())
     }
 

@@ -28,7 +28,7 @@ pub struct Key {
 
 /// Bind group layouts, shader modules and the pipelines made so far.
 pub struct Pipelines {
-    /// Group 0: frame, objects, lights, volumes, draw.
+    /// Group 0: frame, objects, lights, volumes, draw, slides and their sampler.
     pub frame_layout: wgpu::BindGroupLayout,
     /// Group 1 of surfaces: material, texture, sampler.
     pub material_layout: wgpu::BindGroupLayout,
@@ -86,6 +86,22 @@ impl Pipelines {
                 storage(2, size_of::<Light>()),
                 storage(3, size_of::<Volume>()),
                 uniform(4, size_of::<Draw>(), true),
+                wgpu::BindGroupLayoutEntry {
+                    binding: 5,
+                    visibility: wgpu::ShaderStages::FRAGMENT,
+                    ty: wgpu::BindingType::Texture {
+                        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+                        view_dimension: wgpu::TextureViewDimension::D2Array,
+                        multisampled: false,
+                    },
+                    count: None,
+                },
+                wgpu::BindGroupLayoutEntry {
+                    binding: 6,
+                    visibility: wgpu::ShaderStages::FRAGMENT,
+                    ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+                    count: None,
+                },
             ],
         );
         let material_layout = layout(
@@ -241,6 +257,7 @@ fn constants(overrides: &[Override], Key { look, state, .. }: &Key) -> Vec<(&'st
                 LightShape::Point => 0.0,
                 LightShape::Directional => 1.0,
                 LightShape::Spot => 2.0,
+                LightShape::Projector => 3.0,
             };
             ("LIGHT_KIND", kind)
         }

@@ -48,24 +48,34 @@ pub fn white(context: &Context) -> wgpu::TextureView {
 /// Uploads a texture with all its mip levels.
 #[must_use]
 pub fn upload(context: &Context, texture: &Texture) -> wgpu::TextureView {
-    let levels = texture.width.max(texture.height).max(1).ilog2() + 1;
-    let size = wgpu::Extent3d { width: texture.width, height: texture.height, depth_or_array_layers: 1 };
-    let made = context.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(&texture.name),
-        size,
-        mip_level_count: levels,
+    let made = allocate(context, &texture.name, [texture.width, texture.height], 1);
+    write_layer(context, &made, 0, texture);
+    made.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// A texture for images of this size, one a layer, with room for all their mip levels.
+pub fn allocate(context: &Context, label: &str, [width, height]: [u32; 2], layers: u32) -> wgpu::Texture {
+    context.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: layers },
+        mip_level_count: width.max(height).max(1).ilog2() + 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: FORMAT,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
-    });
+    })
+}
+
+/// Writes one layer with all its mip levels; `texture` has the size of `made`.
+pub fn write_layer(context: &Context, made: &wgpu::Texture, layer: u32, texture: &Texture) {
+    let levels = made.mip_level_count();
     let write = |level: u32, width: u32, height: u32, rgba: &[u8]| {
         context.queue.write_texture(
             wgpu::TexelCopyTextureInfo {
-                texture: &made,
+                texture: made,
                 mip_level: level,
-                origin: wgpu::Origin3d::ZERO,
+                origin: wgpu::Origin3d { x: 0, y: 0, z: layer },
                 aspect: wgpu::TextureAspect::All,
             },
             rgba,
@@ -83,7 +93,6 @@ pub fn upload(context: &Context, texture: &Texture) -> wgpu::TextureView {
         write(level, width, height, &smaller);
         above = Some(smaller);
     }
-    made.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 /// The next mip level: 2 x 2 texels averaged in linear light.

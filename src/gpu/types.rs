@@ -21,8 +21,8 @@ pub struct Frame {
     pub light_count: u32,
     /// Linear.
     pub background_top: [f32; 3],
-    #[doc(hidden)]
-    pub _pad0: f32,
+    /// The size of a pixel one metre before the eye, metres.
+    pub pixel: f32,
     /// Linear.
     pub background_bottom: [f32; 3],
     #[doc(hidden)]
@@ -61,10 +61,16 @@ pub struct Light {
     pub intensity: [f32; 3],
     /// 1 / (cos inner - cos outer).
     pub inverse_cone_width: f32,
-    /// 0 point, 1 directional, 2 spot.
+    /// Unit, square to `direction`: to the right of what it projects.
+    pub right: [f32; 3],
+    /// 0 point, 1 directional, 2 spot, 3 projector.
     pub kind: u32,
+    /// Which slide it projects, a layer of the slides' array.
+    pub slide: u32,
+    /// Slide halves a metre beside the axis, one metre before the light.
+    pub slide_scale: f32,
     #[doc(hidden)]
-    pub _pad: [u32; 3],
+    pub _pad: [u32; 2],
 }
 
 /// `struct Volume` of `shared/frame.wgsl`.

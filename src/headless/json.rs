@@ -65,9 +65,9 @@ pub struct StepReport {
 /// The volumes of one light.
 #[derive(Debug, Clone, Serialize)]
 pub struct LightReport {
-    /// Its index in the scene.
+    /// Its index in the scene; points of a light with a size are counted on after the scene's lights.
     pub light: usize,
-    /// Its name.
+    /// Its name, or that of the light it is a point of.
     pub name: String,
     /// How many casters were counted how, and why.
     pub counted: Vec<Counted>,
@@ -147,7 +147,7 @@ fn volumes(scene: &Scene, plan: &FramePlan) -> Vec<LightReport> {
         .into_iter()
         .map(|(light, counts)| LightReport {
             light,
-            name: scene.lights.get(light).map(|light| light.name.clone()).unwrap_or_default(),
+            name: plan.points.get(light).and_then(|&of| scene.lights.get(of)).map(|light| light.name.clone()).unwrap_or_default(),
             counted: counts
                 .into_iter()
                 .map(|((method, reason), casters)| Counted { method, reason, words: reason.words(), casters })

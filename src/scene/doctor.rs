@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::{AlphaMode, LightKind, Scene};
+use super::{AlphaMode, Extent, LightKind, Scene};
 use crate::geometry::topology::TopologyReport;
 
 /// A scene in numbers and words.
@@ -99,7 +99,14 @@ pub fn report(scene: &Scene) -> Report {
         };
         let reach = if light.range.is_finite() { format!(", {} m", light.range) } else { String::new() };
         let unit = if light.kind == LightKind::Directional { "lx" } else { "cd" };
-        format!("{} ({kind}, {} {unit}{reach})", light.name, light.intensity)
+        let size = match light.extent {
+            Extent::Point => String::new(),
+            Extent::Round(radius) => format!(", radius {radius} m"),
+            Extent::Rectangle([width, height]) => format!(", {width} m by {height} m"),
+        };
+        let slide = light.slide.and_then(|slide| scene.textures.get(slide));
+        let slide = slide.map_or_else(String::new, |slide| format!(", projects {}", slide.name));
+        format!("{} ({kind}, {} {unit}{reach}{size}{slide})", light.name, light.intensity)
     });
     let textures =
         scene.textures.iter().map(|texture| format!("{} ({} x {})", texture.name, texture.width, texture.height)).collect();

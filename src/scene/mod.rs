@@ -7,18 +7,22 @@
 //! Stock scenes ([`stock`]) and users' files ([`gltf`]) arrive by the same importer.
 
 pub mod animation;
+pub mod area;
 mod deform;
 pub mod doctor;
 pub mod gltf;
 pub mod mesh;
 pub mod open;
 pub mod pose;
+pub mod slides;
 pub mod stock;
 
 pub use animation::{Animation, AnimationChoice, Channel, Interpolation, Property};
+pub use area::{Extent, Sampling};
 pub use mesh::{Mesh, MeshError, MeshParts, MorphTarget, Primitive, SkinVertex};
 pub use open::{Loading, OpenError, load_on_thread, open};
 pub use pose::{DeformedMesh, Pose, PosedLight};
+pub use slides::{BuiltInSlide, Slide};
 
 use glam::{DAffine3, DQuat, DVec3, Vec3, Vec4};
 
@@ -227,6 +231,25 @@ pub struct Light {
     pub intensity: f32,
     /// Metres after which the light ends; infinite allowed (and always so for directional lights).
     pub range: f32,
+    /// What shines: a point, or something with a size. Directional lights are points.
+    pub extent: Extent,
+    /// What a spot projects: a texture of the scene, its lower edge down the node's Y, sRGB.
+    pub slide: Option<usize>,
+}
+
+impl Default for Light {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            node: 0,
+            kind: LightKind::Point,
+            color: Vec3::ONE,
+            intensity: 1.0,
+            range: f32::INFINITY,
+            extent: Extent::Point,
+            slide: None,
+        }
+    }
 }
 
 /// The three shapes of light glTF has.

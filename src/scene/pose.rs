@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 
 use glam::{DAffine3, DQuat, DVec3, DVec4, Vec3};
 
-use super::{AnimationChoice, LightKind, Property, Scene, Transform, deform};
+use super::{AnimationChoice, Extent, LightKind, Property, Scene, Slide, Transform, deform};
 use crate::geometry::Aabb;
-use crate::settings::LightEdit;
+use crate::settings::{LightEdit, SlideChoice};
 
 /// Everything about a scene that depends on time.
 #[derive(Debug, Clone, Default)]
@@ -25,7 +25,7 @@ pub struct Pose {
     /// One per node: where the mesh it shows is in the world. Identity for meshes deformed in
     /// world space (skinned or flattened ones); otherwise the node's own.
     pub world_from_object: Vec<DAffine3>,
-    /// One per light of the scene.
+    /// One per light of the scene; where lights with a size were expanded, their other points after those.
     pub lights: Vec<PosedLight>,
 }
 
@@ -42,13 +42,24 @@ pub struct DeformedMesh {
     pub bounds: Aabb,
 }
 
-/// A light in world space.
+/// A light in world space: a point of one, where the light has a size and was expanded
+/// ([`Pose::expand_lights`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PosedLight {
     /// Metres; for directional lights just where the node is.
     pub position: DVec3,
     /// Unit; where a directional or spot light shines to.
     pub direction: DVec3,
+    /// Unit, square to `direction`: the node's X, to the right of what it projects.
+    pub right: DVec3,
+    /// The middle of the light; `position` but for the points of a light with a size.
+    pub center: DVec3,
+    /// The light of the scene that this is, or is a point of.
+    pub of: usize,
+    /// What shines.
+    pub extent: Extent,
+    /// What a spot projects.
+    pub slide: Option<Slide>,
     /// Point, directional or spot.
     pub kind: LightKind,
     /// Linear RGB times intensity: candela, or lux for directional lights.
@@ -59,6 +70,25 @@ pub struct PosedLight {
     pub on: bool,
     /// Casts shadows.
     pub shadows: bool,
+}
+
+impl Default for PosedLight {
+    fn default() -> Self {
+        Self {
+            position: DVec3::ZERO,
+            direction: DVec3::NEG_Z,
+            right: DVec3::X,
+            center: DVec3::ZERO,
+            of: 0,
+            extent: Extent::Point,
+            slide: None,
+            kind: LightKind::Point,
+            intensity: Vec3::ONE,
+            range: f64::INFINITY,
+            on: true,
+            shadows: true,
+        }
+    }
 }
 
 /// `scene` as it is `time` seconds after its start, the animations of `animation` playing, its
@@ -139,9 +169,23 @@ fn place_light(scene: &Scene, index: usize, world_from_node: &[DAffine3], edit: 
     let world_from_light = world_from_node.get(light.node).copied().unwrap_or(DAffine3::IDENTITY);
     let color = edit.color.filter(|color| color.is_finite()).unwrap_or(light.color);
     let intensity = edit.intensity.filter(|intensity| intensity.is_finite()).unwrap_or(light.intensity);
+    let position = edit.position.filter(|position| position.is_finite()).unwrap_or(world_from_light.translation);
+    let direction = world_from_light.transform_vector3(DVec3::NEG_Z).try_normalize().unwrap_or(DVec3::NEG_Z);
+    let right = world_from_light.transform_vector3(DVec3::X).reject_from_normalized(direction);
+    let extent = edit.radius.filter(|radius| *radius >= 0.0 && radius.is_finite()).map_or(light.extent, Extent::Round);
+    let slide = match edit.slide {
+        None => light.slide.map(Slide::Texture),
+        Some(SlideChoice::None) => None,
+        Some(SlideChoice::BuiltIn(slide)) => Some(Slide::BuiltIn(slide)),
+    };
     PosedLight {
-        position: edit.position.filter(|position| position.is_finite()).unwrap_or(world_from_light.translation),
-        direction: world_from_light.transform_vector3(DVec3::NEG_Z).try_normalize().unwrap_or(DVec3::NEG_Z),
+        position,
+        direction,
+        right: right.try_normalize().unwrap_or_else(|| direction.any_orthonormal_vector()),
+        center: position,
+        of: index,
+        extent: if light.kind == LightKind::Directional { Extent::Point } else { extent },
+        slide: slide.filter(|_| matches!(light.kind, LightKind::Spot { .. })),
         kind: light.kind,
         intensity: (color * intensity).max(Vec3::ZERO),
         range: match light.kind {
@@ -207,6 +251,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
     use super::*;
     use crate::geometry::light_in_object;
+    use crate::scene::BuiltInSlide;
     use crate::scene::{
         Animation, Channel, Interpolation, Light, Mesh, MeshParts, MorphTarget, Node, Primitive, Skin, SkinVertex,
     };
@@ -384,8 +429,14 @@ mod tests {
     #[test]
     fn lights_stand_where_their_nodes_are_unless_edited() {
         let place = trs(DVec3::new(1.0, 2.0, 3.0), DQuat::from_rotation_y(FRAC_PI_2), DVec3::splat(2.0));
-        let light =
-            |kind| Light { name: String::new(), node: 0, kind, color: Vec3::new(1.0, 0.5, 0.0), intensity: 8.0, range: 5.0 };
+        let light = |kind| Light {
+            kind,
+            color: Vec3::new(1.0, 0.5, 0.0),
+            intensity: 8.0,
+            range: 5.0,
+            slide: Some(0),
+            ..Light::default()
+        };
         let scene = Scene {
             nodes: vec![node(None, place)],
             lights: vec![
@@ -402,12 +453,15 @@ mod tests {
             range: Some(7.0),
             on: Some(false),
             shadows: Some(false),
+            radius: Some(0.25),
+            slide: Some(SlideChoice::BuiltIn(BuiltInSlide::Grille)),
         };
         let broken = LightEdit {
             position: Some(DVec3::NAN),
             color: Some(Vec3::NAN),
             intensity: Some(f32::INFINITY),
             range: Some(-1.0),
+            radius: Some(-1.0),
             ..LightEdit::default()
         };
         let pose = pose(&scene, 0.0, AnimationChoice::All, &BTreeMap::from([(0, edit), (2, broken), (9, LightEdit::default())]));
@@ -416,6 +470,9 @@ mod tests {
             (point.position, point.intensity, point.range, point.on, point.shadows),
             (DVec3::Y, Vec3::splat(3.0), 7.0, false, false)
         );
+        assert_eq!((point.extent, point.slide), (Extent::Round(0.25), None), "only spots project");
+        assert_eq!((spot.extent, spot.slide), (Extent::Point, Some(Slide::Texture(0))));
+        assert!(spot.right.distance(DVec3::NEG_Z) < 1e-12 && spot.center == spot.position);
         assert_eq!((sun.range, sun.on, sun.shadows), (f64::INFINITY, true, true));
         assert!(sun.direction.distance(DVec3::NEG_X) < 1e-12);
         assert_eq!((spot.position, spot.intensity, spot.range), (DVec3::new(1.0, 2.0, 3.0), Vec3::new(8.0, 4.0, 0.0), 5.0));

@@ -125,7 +125,7 @@ impl Build {
         let rotation = DQuat::from_rotation_arc(DVec3::NEG_Z, towards.normalize());
         let node = self.node(None, Transform::Affine(DAffine3::from_rotation_translation(rotation, at)));
         let name = format!("light {}", self.0.lights.len());
-        self.0.lights.push(Light { name, node, kind, color: Vec3::ONE, intensity, range: f32::INFINITY });
+        self.0.lights.push(Light { name, node, kind, color: Vec3::ONE, intensity, ..Light::default() });
         self.0.lights.len() - 1
     }
 

@@ -108,13 +108,16 @@ struct Icon {
 }
 
 fn icons(desk: &Desk<'_>, view: &View<'_>, camera: &Camera, picture: Rect) -> Vec<Icon> {
+    // What follows after the scene's lights are points of theirs.
+    let count = view.scene.map_or(0, |scene| scene.lights.len());
     let lights = view.pose.map_or(&[][..], |pose| &pose.lights);
     let mut icons: Vec<_> = lights
         .iter()
         .enumerate()
+        .take(count)
         .filter(|(_, light)| light.kind != LightKind::Directional)
         .filter_map(|(index, light)| {
-            let position = desk.settings.lights.get(&index).and_then(|edit| edit.position).unwrap_or(light.position);
+            let position = desk.settings.lights.get(&index).and_then(|edit| edit.position).unwrap_or(light.center);
             let at = project(camera, picture, position).filter(|at| picture.contains(*at))?;
             Some(Icon { light: index, at, position, distance: position.distance(camera.eye) })
         })

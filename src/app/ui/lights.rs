@@ -2,10 +2,10 @@
 
 use egui::{Color32, RichText, Ui};
 
-use super::style::{self, field, number, point};
+use super::style::{self, field, number, point, slider};
 use super::{Desk, Panel, View};
-use crate::scene::{Light, LightKind, PosedLight};
-use crate::settings::LightEdit;
+use crate::scene::{Extent, Light, LightKind, PosedLight};
+use crate::settings::{LightEdit, MAX_AREA_SAMPLES, Show, SlideChoice};
 
 /// All lights.
 pub fn lights(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_>) {
@@ -21,9 +21,31 @@ pub fn lights(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'
             desk.settings.lights.clear();
         }
     });
+    sizes(ui, desk, view);
     for (index, light) in scene.lights.iter().enumerate() {
         let posed = view.pose.and_then(|pose| pose.lights.get(index));
         ui.push_id(("light", index), |ui| one(ui, panel, desk, index, light, posed));
+    }
+}
+
+/// How lights with a size are counted; nothing where there are none.
+fn sizes(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
+    let posed = view.pose.map_or(&[][..], |pose| &pose.lights);
+    if posed.iter().all(|light| light.extent.is_point()) {
+        return;
+    }
+    let lighting = &mut desk.settings.lighting;
+    field(ui, "Points a light", "Lights with a size are counted as so many points, each with shadow volumes of its own", |ui| {
+        ui.add(slider(&mut lighting.area_samples, 1..=MAX_AREA_SAMPLES))
+    });
+    lighting.light_sample = lighting.light_sample.min(lighting.area_samples - 1);
+    let of_one_light = matches!(desk.settings.show, Show::Stencil | Show::Shadow | Show::Volumes);
+    let looked_at = posed.get(desk.settings.light).is_some_and(|light| !light.extent.is_point());
+    if of_one_light && looked_at && lighting.area_samples > 1 {
+        let last = lighting.area_samples - 1;
+        field(ui, "Point shown", "Which point of the light stencil, shadow and volumes look at", |ui| {
+            ui.add(slider(&mut lighting.light_sample, 0..=last))
+        });
     }
 }
 
@@ -78,7 +100,7 @@ fn body(ui: &mut Ui, index: usize, light: &Light, posed: Option<&PosedLight>, ed
     if light.kind != LightKind::Directional
         && let Some(posed) = posed
     {
-        let mut position = edit.position.unwrap_or(posed.position);
+        let mut position = edit.position.unwrap_or(posed.center);
         if point(ui, "Position", "Where the light is", &mut position) {
             edit.position = Some(position);
         }
@@ -95,6 +117,19 @@ fn body(ui: &mut Ui, index: usize, light: &Light, posed: Option<&PosedLight>, ed
     }
     if !directional {
         range(ui, light, edit);
+        let mut radius = edit.radius.unwrap_or(match light.extent {
+            Extent::Point => 0.0,
+            Extent::Round(radius) => radius,
+            Extent::Rectangle([width, height]) => width.max(height) / 2.0,
+        });
+        let tip = "A light with a size throws soft shadows: it is counted as many points. 0 is a point";
+        let size = field(ui, "Radius", tip, |ui| ui.add(number(&mut radius).speed(0.005).range(0.0..=100.0).suffix(" m")));
+        if size.changed() {
+            edit.radius = Some(radius);
+        }
+    }
+    if let LightKind::Spot { .. } = light.kind {
+        slide(ui, light, edit);
     }
     let mut shadows = edit.shadows.unwrap_or(true);
     if ui.checkbox(&mut shadows, "Casts shadows").changed() {
@@ -104,6 +139,25 @@ fn body(ui: &mut Ui, index: usize, light: &Light, posed: Option<&PosedLight>, ed
     if reset.on_hover_text("Back to what the scene says").clicked() {
         *edit = LightEdit::default();
     }
+}
+
+/// What a spot projects.
+fn slide(ui: &mut Ui, light: &Light, edit: &mut LightEdit) {
+    let own = if light.slide.is_some() { "the scene's" } else { "none" };
+    field(ui, "Projects", "A picture in the cone of light, as of a slide projector", |ui| {
+        egui::ComboBox::from_id_salt("slide")
+            .selected_text(edit.slide.map_or(own, SlideChoice::name))
+            .show_ui(ui, |ui| {
+                if light.slide.is_some() {
+                    ui.selectable_value(&mut edit.slide, None, own);
+                }
+                for slide in SlideChoice::ALL {
+                    let choice = Some(slide).filter(|slide| light.slide.is_some() || *slide != SlideChoice::None);
+                    ui.selectable_value(&mut edit.slide, choice, slide.name());
+                }
+            })
+            .response
+    });
 }
 
 fn range(ui: &mut Ui, light: &Light, edit: &mut LightEdit) {

@@ -43,6 +43,7 @@ pub(super) fn add(scene: &mut Scene, pose: &Pose, radius: f64, warnings: &mut Wa
             color: glow.power / brightest,
             intensity: brightest,
             range: f32::INFINITY,
+            ..Light::default()
         });
     }
     true

@@ -3,21 +3,28 @@
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use glam::Vec3;
-use gltf::json::Root;
 use gltf::json::camera::Type as CameraType;
 use gltf::json::extensions::scene::khr_lights_punctual::{Light as GltfLight, Type as LightType};
 use gltf::json::validation::Checked;
+use gltf::json::{Extras, Root};
+use serde_json::Value;
 
 use super::error::{Problem, Warnings, name, part};
+use super::images::Images;
 use super::nodes::Hierarchy;
 use crate::frame::camera::DEFAULT_NEAR;
-use crate::scene::{Camera, Light, LightKind};
+use crate::scene::{Camera, Extent, Light, LightKind};
 
 /// More lights than this are no picture any more, but hours of shadow passes.
 const MOST_LIGHTS: usize = 256;
 
 /// The lights of the scene's nodes.
-pub(super) fn lights(root: &Root, hierarchy: &Hierarchy, warnings: &mut Warnings) -> Result<Vec<Light>, Problem> {
+pub(super) fn lights(
+    root: &Root,
+    hierarchy: &Hierarchy,
+    images: &mut Images<'_>,
+    warnings: &mut Warnings,
+) -> Result<Vec<Light>, Problem> {
     let defined = root.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
     let defined = defined.map_or(&[][..], |extension| &extension.lights);
     let mut lights = Vec::new();
@@ -34,10 +41,58 @@ pub(super) fn lights(root: &Root, hierarchy: &Hierarchy, warnings: &mut Warnings
             break;
         }
         let fallback = node.name.as_deref().filter(|name| !name.is_empty());
-        lights.extend(self::light(definition, light, fallback, number, warnings));
+        let imported = self::light(definition, light, fallback, number, warnings);
+        // What the node says goes before what the light says, which other nodes may share.
+        let extra = |key: &str| [&node.extras, &definition.extras].into_iter().find_map(|extras| extra(extras, key));
+        let named = || part("light", light, definition.name.as_deref());
+        lights.extend(imported.map(|imported| with_extras(imported, extra, images, named, warnings)));
     }
     Ok(lights)
 }
+
+/// A value of the user's in `extras`.
+fn extra(extras: &Extras, key: &str) -> Option<Value> {
+    serde_json::from_str::<Value>(extras.as_deref()?.get()).ok()?.get(key).cloned()
+}
+
+/// A light with what glTF has no word for: `radius` or `size` in metres, and the texture it `projects`.
+fn with_extras(
+    mut light: Light,
+    extra: impl Fn(&str) -> Option<Value>,
+    images: &mut Images<'_>,
+    named: impl Fn() -> String,
+    warnings: &mut Warnings,
+) -> Light {
+    #[expect(clippy::cast_possible_truncation, reason = "what is too large is put in range")]
+    let metres = |value: &Value| value.as_f64().filter(|metres| *metres > 0.0).map(|metres| (metres as f32).min(LARGEST_LIGHT));
+    let round = extra("radius").map(|radius| metres(&radius).map(Extent::Round));
+    let rectangle = extra("size").map(|size| match size.as_array().map(Vec::as_slice) {
+        Some([width, height]) => metres(width).zip(metres(height)).map(|(width, height)| Extent::Rectangle([width, height])),
+        _ => None,
+    });
+    match rectangle.or(round) {
+        None => {}
+        Some(_) if light.kind == LightKind::Directional => {
+            warnings.push(format!("{}: it is directional, and its size is left out", named()));
+        }
+        Some(Some(extent)) => light.extent = extent,
+        Some(None) => warnings.push(format!("{}: its size is no size, and it shines from a point", named())),
+    }
+    if let Some(texture) = extra("projects") {
+        let index = texture.as_u64().and_then(|index| usize::try_from(index).ok());
+        let spot = matches!(light.kind, LightKind::Spot { .. });
+        light.slide = index.filter(|_| spot).and_then(|index| images.texture(index, warnings));
+        if !spot {
+            warnings.push(format!("{}: only spots project, and this is none", named()));
+        } else if light.slide.is_none() {
+            warnings.push(format!("{}: it projects texture {texture}, which does not exist", named()));
+        }
+    }
+    light
+}
+
+/// Metres: more is the sky.
+const LARGEST_LIGHT: f32 = 1e6;
 
 fn light(light: &GltfLight, index: usize, fallback: Option<&str>, node: usize, warnings: &mut Warnings) -> Option<Light> {
     let named = part("light", index, light.name.as_deref());
@@ -76,7 +131,7 @@ fn light(light: &GltfLight, index: usize, fallback: Option<&str>, node: usize, w
     };
     let name = light.name.as_deref().filter(|name| !name.is_empty()).or(fallback);
     let name = self::name("light", index, name);
-    Some(Light { name, node, kind, color, intensity, range })
+    Some(Light { name, node, kind, color, intensity, range, ..Light::default() })
 }
 
 /// A camera, and for an orthographic one half the height it sees.

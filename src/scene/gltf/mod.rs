@@ -113,11 +113,11 @@ fn import(name: &str, bytes: &[u8], folder: &Folder) -> Result<Scene, Problem> {
     if scene.instances().next().is_none() {
         return Err(Problem::Nothing("the scene's nodes show no triangles".into()));
     }
-    scene.textures = images.textures;
     scene.animations = animation::import(&root, &store, &hierarchy, &scene.nodes, &scene.meshes, &mut warnings)?;
     check_instances(&mut scene, &root, &hierarchy, &store, &mut warnings)?;
     scene.default_animation = if scene.animations.is_empty() { AnimationChoice::All } else { AnimationChoice::One(0) };
-    scene.lights = lights::lights(&root, &hierarchy, &mut warnings)?;
+    scene.lights = lights::lights(&root, &hierarchy, &mut images, &mut warnings)?;
+    scene.textures = images.textures;
     let (cameras, heights): (Vec<_>, Vec<_>) = lights::cameras(&root, &hierarchy, &mut warnings)?.into_iter().unzip();
     scene.cameras = cameras;
     staging::complete(&mut scene, &heights, &mut warnings)?;

@@ -102,6 +102,7 @@ fn add_lights(scene: &mut Scene, center: DVec3, radius: f64) {
         color: Vec3::new(1.0, 0.95, 0.86),
         intensity: (GOOD_IRRADIANCE * distance * distance) as f32,
         range: f32::INFINITY,
+        ..Light::default()
     });
     let node = add_node(scene, "fill light", center + FILL_SIDE.normalize() * distance, center);
     scene.lights.push(Light {
@@ -111,6 +112,7 @@ fn add_lights(scene: &mut Scene, center: DVec3, radius: f64) {
         color: Vec3::new(0.75, 0.86, 1.0),
         intensity: (0.25 * GOOD_IRRADIANCE) as f32,
         range: f32::INFINITY,
+        ..Light::default()
     });
 }
 

@@ -234,7 +234,7 @@ impl Composer {
     /// A light at a node's origin, shining along its -Z where it has a direction.
     pub(super) fn light(&mut self, node: usize, kind: LightKind, color: [f32; 3], intensity: f32, range: f32) {
         let name = self.scene.nodes[node].name.clone();
-        self.scene.lights.push(Light { name, node, kind, color: color.into(), intensity, range });
+        self.scene.lights.push(Light { name, node, kind, color: color.into(), intensity, range, ..Light::default() });
     }
 
     /// A light that shines everywhere, standing still.

@@ -1,0 +1,145 @@
+//! Lights that are more than points of one colour: with a size, with a slide; and how their light is
+//! gathered.
+#![allow(clippy::unwrap_used, clippy::panic, clippy::float_cmp, reason = "a test fails by panicking; values are exact")]
+
+mod common;
+
+use common::{Build, Stage, cube, seen_from};
+use glam::{DVec3, Vec3};
+use image::RgbaImage;
+use obscura::director::{StageError, stage};
+use obscura::frame::Capabilities;
+use obscura::scene::{Environment, Extent, LightKind, Scene, Texture, Wrap};
+use obscura::settings::{LightEdit, Lighting, Settings, Show, SlideChoice};
+
+const SIZE: [u32; 2] = [160, 160];
+
+/// Nothing shines but the lights.
+fn dark(mut build: Build) -> Build {
+    build.0.environment = Environment { ambient_sky: Vec3::ZERO, ambient_ground: Vec3::ZERO, background: [Vec3::ZERO; 2] };
+    build
+}
+
+/// A floor under a spot that shines straight down, its slide a quarter red, green, blue and white from the
+/// upper left; seen from above, -Z up.
+fn projected() -> (Scene, Settings) {
+    let mut build = dark(Build::new());
+    build.floor(0.0, 20.0);
+    let spot = build.light(LightKind::Spot { inner: 0.6, outer: 0.7 }, DVec3::Y * 5.0, DVec3::NEG_Y, 100.0);
+    let quarters = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [255, 255, 255, 255]];
+    let rgba = quarters.concat();
+    let texture = Texture { name: "quarters".into(), width: 2, height: 2, rgba, wrap: [Wrap::Clamp; 2], nearest: false };
+    build.0.textures.push(texture);
+    build.0.lights[spot].slide = Some(0);
+    (build.0, seen_from(DVec3::new(0.0, 10.0, 0.001), DVec3::ZERO, SIZE))
+}
+
+fn at(image: &RgbaImage, x: f64, y: f64) -> [u8; 3] {
+    let [r, g, b, _] = image.get_pixel((x * f64::from(SIZE[0])) as u32, (y * f64::from(SIZE[1])) as u32).0;
+    [r, g, b]
+}
+
+#[test]
+fn a_spot_projects_its_slide_upright_and_nothing_beyond_its_edge() {
+    let (scene, settings) = projected();
+    let mut stage = Stage::new();
+    stage.set_scene(&scene);
+    let image = stage.shoot(&settings, &scene).image;
+    // The slide's half is 5 tan(0.7) / sqrt 2 = 2.98 m, the picture's half 10 tan(25 degrees) = 4.66 m.
+    let (near, far) = (0.5 - 0.5 * 1.5 / 4.66, 0.5 + 0.5 * 1.5 / 4.66);
+    let strongest = |[r, g, b]: [u8; 3]| [r > 100, g > 100, b > 100];
+    assert_eq!(strongest(at(&image, near, near)), [true, false, false]);
+    assert_eq!(strongest(at(&image, far, near)), [false, true, false]);
+    assert_eq!(strongest(at(&image, near, far)), [false, false, true]);
+    assert_eq!(strongest(at(&image, far, far)), [true, true, true]);
+    for beyond in [0.5 - 0.5 * 3.1 / 4.66, 0.5 + 0.5 * 3.1 / 4.66] {
+        assert_eq!([at(&image, beyond, 0.5), at(&image, 0.5, beyond)], [[0; 3]; 2], "beyond the slide's edge");
+    }
+
+    let plain = LightEdit { slide: Some(SlideChoice::None), ..LightEdit::default() };
+    let without = stage.shoot(&Settings { lights: [(0, plain)].into(), ..settings.clone() }, &scene).image;
+    let [r, g, b] = at(&without, near, near);
+    assert!(r == g && g == b && r > 100, "a plain cone is white");
+    assert!(at(&without, 0.5, 0.5 - 0.5 * 3.1 / 4.66)[0] > 50, "and round");
+
+    for slide in SlideChoice::ALL.into_iter().filter(|slide| *slide != SlideChoice::None) {
+        let edit = LightEdit { slide: Some(slide), ..LightEdit::default() };
+        let built_in = stage.shoot(&Settings { lights: [(0, edit)].into(), ..settings.clone() }, &scene).image;
+        assert_ne!(built_in, image, "{}", slide.name());
+        assert_ne!(built_in, without, "{}", slide.name());
+        let lit = built_in.pixels().filter(|pixel| pixel.0[..3].iter().any(|value| *value > 60)).count();
+        assert!(lit > 1000, "{}: {lit}", slide.name());
+    }
+}
+
+/// A cube over a floor, and a lamp of some size above.
+fn soft() -> (Scene, Settings) {
+    let mut build = dark(Build::new());
+    build.floor(0.0, 20.0);
+    let solid = build.mesh(cube(0));
+    build.place(solid, DVec3::new(0.0, 3.0, 0.0), DVec3::splat(0.7));
+    let lamp = build.point_light(DVec3::new(0.5, 8.0, 0.2));
+    build.0.lights[lamp].extent = Extent::Round(0.8);
+    (build.0, seen_from(DVec3::new(0.0, 6.0, 9.0), DVec3::new(0.0, 1.0, 0.0), SIZE))
+}
+
+fn sampled(settings: &Settings, area_samples: u32) -> Settings {
+    Settings { lighting: Lighting { area_samples, ..settings.lighting }, ..settings.clone() }
+}
+
+/// Each point of a light is exact by itself, and the picture is their sum: a pixel is black where none of
+/// them is seen, as bright as without shadows where all are, and in between where some are.
+#[test]
+fn a_light_with_a_size_is_the_sum_of_its_points() {
+    let (scene, settings) = soft();
+    let settings = sampled(&settings, 8);
+    let mut stage = Stage::new();
+    stage.set_scene(&scene);
+    let mut lit = vec![0u32; (SIZE[0] * SIZE[1]) as usize];
+    let mut surface = vec![true; lit.len()];
+    for light_sample in 0..8 {
+        let lighting = Lighting { light_sample, ..settings.lighting };
+        let verdict = stage.shoot(&Settings { show: Show::Shadow, lighting, ..settings.clone() }, &scene).image;
+        for (pixel, (lit, surface)) in verdict.pixels().zip(lit.iter_mut().zip(&mut surface)) {
+            *lit += u32::from(pixel.0[0] == 255);
+            *surface &= pixel.0[0] != 128;
+        }
+    }
+    let picture = stage.shoot(&settings, &scene).image;
+    let shadowless = LightEdit { shadows: Some(false), ..LightEdit::default() };
+    let unshadowed = stage.shoot(&Settings { lights: [(0, shadowless)].into(), ..settings.clone() }, &scene).image;
+    let mut seen = [0; 9];
+    for ((pixel, bright), (lit, surface)) in picture.pixels().zip(unshadowed.pixels()).zip(lit.iter().zip(&surface)) {
+        // What faces away from the lamp is dark however much of it there is.
+        if !surface || bright.0[0] < 40 {
+            continue;
+        }
+        seen[*lit as usize] += 1;
+        match lit {
+            0 => assert_eq!(pixel.0[..3], [0; 3]),
+            8 => assert_eq!(pixel, bright),
+            _ => assert!(pixel.0[0] > 0 && pixel.0[0] < bright.0[0], "{pixel:?} of {bright:?} by {lit} points"),
+        }
+    }
+    assert!(seen.iter().all(|pixels| *pixels > 20), "the penumbra has all its steps: {seen:?}");
+}
+
+#[test]
+fn the_plan_counts_each_point_by_itself() {
+    let (scene, settings) = soft();
+    let plan = |settings: &Settings| stage(settings, &scene, &Capabilities::complete()).unwrap().1;
+    let eight = plan(&sampled(&settings, 8));
+    assert_eq!(eight.points, [0; 8]);
+    assert_eq!(eight.volumes.iter().map(|volume| volume.light).collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5, 6, 7]);
+    assert!(eight.to_string().contains("light 7: a point of light 0"));
+    let one = plan(&sampled(&settings, 1));
+    assert_eq!((one.points.len(), one.volumes.len()), (1, 1));
+    let edit = LightEdit { radius: Some(0.0), ..LightEdit::default() };
+    let point = plan(&Settings { lights: [(0, edit)].into(), ..sampled(&settings, 8) });
+    assert_eq!(point, one, "a radius of 0 is a point");
+
+    let mut many = scene.clone();
+    many.lights = vec![scene.lights[0].clone(); 40];
+    let error = stage(&sampled(&settings, 64), &many, &Capabilities::complete()).unwrap_err();
+    assert!(matches!(error, StageError::Points(2560)), "{error}");
+}
