@@ -40,11 +40,12 @@
 //! | [`techniques`] | one file each and a table of them: how a caster's volume is counted, and why |
 //! | [`director`] | the pass order |
 //! | [`gpu`] | the device, shaders, pipelines, buffers, encoding, read-back, timing |
+//! | [`truth`] | exact rays: what each pixel must be, and the comparison with what was drawn |
 //! | [`headless`] | pictures, the tour, lists and reports without a window |
 //! | [`app`] | the window: loop, surface, input, and the panel, which edits settings and nothing else |
 //!
 //! Imports go downward: `app` and `headless` to `director`, to `techniques`, to `frame`, to `scene`, to
-//! `geometry`; `gpu` reads `frame` and `scene`. Settings and scene name each other's choices (which
+//! `geometry`; `gpu` reads `frame` and `scene`; `truth` reads `scene`, `geometry` and the camera. Settings and scene name each other's choices (which
 //! scene; which animation), and everybody may read settings.
 //!
 //! # One frame
@@ -99,3 +100,4 @@ pub mod headless;
 pub mod scene;
 pub mod settings;
 pub mod techniques;
+pub mod truth;

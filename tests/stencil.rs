@@ -1,15 +1,16 @@
 //! Exact stencil integers on tiny scenes, each variant: the eye outside all volumes, inside one,
 //! inside three, with a caster across the near plane, with open and mirrored casters and every kind
-//! of light. What the integers must be is told by rays ([`common::oracle`]).
+//! of light. What the integers must be is told by rays ([`obscura::truth`]).
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
 
-use common::{Build, Stage, cube, mesh, oracle, seen_from, square};
+use common::{Build, Stage, cube, mesh, seen_from, square};
 use glam::DVec3;
 use obscura::frame::{Method, Reason};
 use obscura::scene::{LightKind, Scene};
 use obscura::settings::{Settings, Show, Technique};
+use obscura::truth::World;
 
 const SIZE: [u32; 2] = [160, 90];
 const EXACT: [Technique; 2] = [Technique::ZFail, Technique::ExactZPass];
@@ -32,7 +33,8 @@ type Measured = (Vec<u8>, Vec<Option<u8>>, Vec<(Method, Reason)>);
 fn measure(stage: &mut Stage, scene: &Scene, settings: &Settings, technique: Technique) -> Measured {
     let settings = Settings { technique, show: Show::Stencil, ..settings.clone() };
     let shot = stage.shoot(&settings, scene);
-    let expected = oracle::counts(scene, &shot.pose, &shot.plan.views[0].camera, settings.light, settings.size);
+    let world = World::new(scene, &shot.pose);
+    let expected = world.counts(&shot.plan.views[0].camera, &shot.pose.lights[settings.light], settings.size);
     let methods = shot.plan.volumes.iter().map(|volume| (volume.method, volume.reason)).collect();
     (stage.stencil(), expected, methods)
 }

@@ -7,15 +7,14 @@
     reason = "each test binary uses a part; tests fail by panicking"
 )]
 
-pub mod oracle;
-
 use glam::{DAffine3, DQuat, DVec3, Vec2, Vec3};
 use obscura::director;
 use obscura::frame::FramePlan;
 use obscura::gpu::{Context, FrameStats, Renderer, readback};
 use obscura::scene::mesh::MeshParts;
 use obscura::scene::{Camera, Light, LightKind, Material, Mesh, Node, Pose, Primitive, Scene, Transform};
-use obscura::settings::{CameraChoice, Settings};
+use obscura::settings::{CameraChoice, Settings, Show};
+use obscura::truth::{Comparison, World};
 
 /// A device and what is drawn on it.
 pub struct Stage {
@@ -51,10 +50,39 @@ impl Stage {
         Shot { plan, pose, stats, image }
     }
 
+    /// Holds every light's `show shadow` of the scene that was set last, drawn by the settings'
+    /// technique, against exact rays.
+    pub fn verify(&mut self, settings: &Settings, scene: &Scene) -> Vec<Comparison> {
+        let lights = 0..scene.lights.len();
+        let shots: Vec<_> =
+            lights.map(|light| self.shoot(&Settings { show: Show::Shadow, light, ..settings.clone() }, scene)).collect();
+        let Some(shot) = shots.first() else { return Vec::new() };
+        let camera = &shot.plan.views[0].camera;
+        let world = World::new(scene, &shot.pose);
+        let verdicts = world.judge_lights(camera, &shot.pose.lights, settings.size, &|_| true).unwrap();
+        verdicts.iter().zip(&shots).map(|(verdicts, shot)| verdicts.compare(&shot.image)).collect()
+    }
+
     /// The stencil after the last frame, rows from the top.
     pub fn stencil(&self) -> Vec<u8> {
         readback::stencil(&self.context, &self.renderer).expect("the stencil comes back")
     }
+}
+
+/// Draws the scene by the settings' technique and asserts that every decided pixel of every light is
+/// what exact rays say; gives the comparisons, one a light. Decided pixels must be many, lit and
+/// shadowed ones among them, or the view says little.
+pub fn assert_exact(scene: &Scene, settings: &Settings) -> Vec<Comparison> {
+    let mut stage = Stage::new();
+    stage.set_scene(scene);
+    let found = stage.verify(settings, scene);
+    for (light, comparison) in found.iter().enumerate() {
+        let command = obscura::cli::render_command(&Settings { show: Show::Shadow, light, ..settings.clone() });
+        assert_eq!(comparison.wrong(), 0, "the first of {comparison:.4?}; {command}", comparison = comparison.pixels);
+        assert!(comparison.decided * 2 > comparison.edges, "{} edges, {} decided", comparison.edges, comparison.decided);
+    }
+    assert!(found.iter().any(|comparison| comparison.lit > 0) && found.iter().any(|comparison| comparison.shadow > 0));
+    found
 }
 
 /// A mesh with flat normals from positions and triangles.

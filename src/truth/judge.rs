@@ -1,0 +1,413 @@
+//! One pixel after the other: what is seen, and is it lit.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use glam::{DVec2, DVec3};
+
+use super::compare::{Verdict, Verdicts};
+use super::mask::Mask;
+use super::tree::{Bundle, Stack};
+use super::world::{Asked, Casts, Face, Seen, World};
+use crate::frame::Camera;
+use crate::scene::{LightKind, PosedLight};
+
+/// The places in a pixel where surfaces are looked for, pixels from its centre, the centre first.
+const PLACES: [DVec2; 5] =
+    [DVec2::ZERO, DVec2::new(-0.25, -0.25), DVec2::new(0.25, -0.25), DVec2::new(-0.25, 0.25), DVec2::new(0.25, 0.25)];
+
+/// Where the light is moved to, in [`NUDGE`]s.
+const NUDGES: [DVec3; 4] = [DVec3::ONE, DVec3::NEG_ONE, DVec3::new(1.0, -1.0, 1.0), DVec3::new(-1.0, 1.0, -1.0)];
+
+/// How far the light is moved, of the scene's size (or of 1, for a direction).
+const NUDGE: f64 = 1e-6;
+
+/// How far before a surface the ray to the light starts, of its depth.
+const HAIR: f64 = 1e-7;
+
+/// What a box is made larger by, of the world's size: much more than double precision is wrong by.
+const SLACK: f64 = 1e-9;
+
+/// One pixel's answer for a light as a number of volumes.
+type Counts = [u8; 9];
+
+impl World {
+    /// What each pixel must be in `light`, for a picture of `size` pixels.
+    #[must_use]
+    pub fn judge(&self, camera: &Camera, light: &PosedLight, size: [u32; 2]) -> Verdicts {
+        self.judge_lights(camera, std::slice::from_ref(light), size, &|_| true).and_then(|mut all| all.pop()).unwrap_or_default()
+    }
+
+    /// The same for several lights, on all cores. `goes_on` hears after every row which share of the
+    /// work is done, from any thread; where it says no, there is no answer.
+    pub fn judge_lights(
+        &self,
+        camera: &Camera,
+        lights: &[PosedLight],
+        size: [u32; 2],
+        goes_on: &(dyn Fn(f64) -> bool + Sync),
+    ) -> Option<Vec<Verdicts>> {
+        let rows = self.rows(camera, size, goes_on, |caster, y| {
+            let mut row = vec![Verdict::Edge; lights.len() * size[0] as usize];
+            for (x, verdicts) in (0..size[0]).zip(row.chunks_exact_mut(lights.len().max(1))) {
+                caster.pixel(x, y, lights, verdicts);
+            }
+            row
+        })?;
+        let mut all = vec![Verdicts::new(size); lights.len()];
+        for row in rows {
+            for pixel in row.chunks_exact(lights.len().max(1)) {
+                for (verdicts, verdict) in all.iter_mut().zip(pixel) {
+                    verdicts.push(*verdict);
+                }
+            }
+        }
+        Some(all)
+    }
+
+    /// How many volumes of `light` each pixel lies in, modulo 256: what the stencil must hold. None
+    /// where there is no surface, and at edges: borders between counts, not only of light.
+    #[must_use]
+    pub fn counts(&self, camera: &Camera, light: &PosedLight, size: [u32; 2]) -> Vec<Option<u8>> {
+        let row = |caster: &mut Caster<'_>, y| (0..size[0]).map(|x| caster.count(x, y, light)).collect::<Vec<_>>();
+        self.rows(camera, size, &|_| true, row).unwrap_or_default().into_iter().flatten().collect()
+    }
+
+    /// Every row of a picture, on all cores.
+    fn rows<T: Send>(
+        &self,
+        camera: &Camera,
+        size: [u32; 2],
+        goes_on: &(dyn Fn(f64) -> bool + Sync),
+        row: impl Fn(&mut Caster<'_>, u32) -> T + Sync,
+    ) -> Option<Vec<T>> {
+        let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let work = || {
+            let mut caster = Caster::new(self, camera, size);
+            let mut done = Vec::new();
+            while !stopped.load(Ordering::Relaxed) {
+                let y = next.fetch_add(1, Ordering::Relaxed);
+                let Some(at) = u32::try_from(y).ok().filter(|y| *y < size[1]) else { break };
+                done.push((at, row(&mut caster, at)));
+                if !goes_on(f64::from(at + 1) / f64::from(size[1])) {
+                    stopped.store(true, Ordering::Relaxed);
+                }
+            }
+            done
+        };
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let mut rows: Vec<(u32, T)> = std::thread::scope(|scope| {
+            let others: Vec<_> = (1..threads).map(|_| scope.spawn(&work)).collect();
+            let mut rows = work();
+            for other in others {
+                match other.join() {
+                    Ok(done) => rows.extend(done),
+                    Err(panic) => std::panic::resume_unwind(panic),
+                }
+            }
+            rows
+        });
+        rows.sort_by_key(|(y, _)| *y);
+        (!stopped.into_inner()).then(|| rows.into_iter().map(|(_, row)| row).collect())
+    }
+}
+
+/// One thread's rays.
+struct Caster<'a> {
+    world: &'a World,
+    camera: Camera,
+    size: DVec2,
+    /// One pixel to the right and one down, on the plane one metre before the eye.
+    pixel: [DVec3; 2],
+    stack: Stack,
+    /// What cast the last shadow of each light: it may well cast the next.
+    last: Vec<Option<u32>>,
+}
+
+/// What a pixel shows.
+enum Shown {
+    Nothing,
+    Edge,
+    /// Metres, world space, a hair before the surface.
+    Surface([DVec3; 5]),
+}
+
+impl<'a> Caster<'a> {
+    fn new(world: &'a World, camera: &Camera, size: [u32; 2]) -> Self {
+        let size = DVec2::new(f64::from(size[0]), f64::from(size[1]));
+        let half_height = (camera.vertical_fov / 2.0).tan();
+        let right = camera.forward.cross(camera.up) * (half_height * camera.aspect * 2.0 / size.x);
+        let down = camera.up * (-half_height * 2.0 / size.y);
+        Self { world, camera: *camera, size, pixel: [right, down], stack: Stack::new(), last: Vec::new() }
+    }
+
+    /// The verdict of each light on one pixel.
+    fn pixel(&mut self, x: u32, y: u32, lights: &[PosedLight], verdicts: &mut [Verdict]) {
+        match self.look(x, y) {
+            Shown::Edge => verdicts.fill(Verdict::Edge),
+            Shown::Nothing => verdicts.fill(Verdict::Nothing),
+            Shown::Surface(points) => {
+                self.last.resize(lights.len(), None);
+                for (number, (light, verdict)) in lights.iter().zip(verdicts).enumerate() {
+                    *verdict = self.light(number, light, &points);
+                }
+            }
+        }
+    }
+
+    fn count(&mut self, x: u32, y: u32, light: &PosedLight) -> Option<u8> {
+        let Shown::Surface(points) = self.look(x, y) else { return None };
+        let mut shadow = Shadow::new(self.world, light, &points);
+        shadow.counts_on = true;
+        self.world.tree.descend(&mut shadow, &mut self.stack);
+        let counts = shadow.counts;
+        counts.iter().all(|count| *count == counts[0]).then_some(counts[0])
+    }
+
+    /// What is seen at the five places of a pixel.
+    fn look(&mut self, x: u32, y: u32) -> Shown {
+        let Camera { eye, forward, near, .. } = self.camera;
+        let [right, down] = self.pixel;
+        let center = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) - self.size / 2.0;
+        // Their part along `forward` is 1: distances are depths.
+        let directions = PLACES.map(|place| forward + right * (center.x + place.x) + down * (center.y + place.y));
+        let slack = SLACK * (self.world.size + eye.length());
+        let mut sight = Sight {
+            world: self.world,
+            eye,
+            forward,
+            near,
+            pixel: self.pixel,
+            inverse: directions[0].recip(),
+            directions,
+            spread: (right.abs() + down.abs()) * 0.25,
+            slack,
+            nearest: [Nearest { depth: f64::INFINITY, instance: u32::MAX, sure: true }; 5],
+        };
+        self.world.tree.descend(&mut sight, &mut self.stack);
+        let nearest = sight.nearest;
+        if nearest.iter().any(|met| !met.sure || met.instance != nearest[0].instance) {
+            return Shown::Edge;
+        }
+        if nearest[0].instance == u32::MAX {
+            return Shown::Nothing;
+        }
+        let mut at = 0;
+        Shown::Surface(directions.map(|direction| {
+            let depth = nearest[at].depth;
+            at += 1;
+            eye + direction * (depth * (1.0 - HAIR))
+        }))
+    }
+
+    /// Whether `light`, the `number`th, reaches all five points, or none.
+    fn light(&mut self, number: usize, light: &PosedLight, points: &[DVec3; 5]) -> Verdict {
+        if !matches!(light.kind, LightKind::Directional) && light.range.is_finite() {
+            // The picture's distances are of single precision.
+            let unsure = 1e-5 * light.range + 1e-6 * (self.world.largest + light.position.abs().max_element());
+            let beyond = points.map(|point| point.distance(light.position) - light.range);
+            if beyond.iter().all(|beyond| *beyond > unsure) {
+                return Verdict::OutOfRange;
+            }
+            if !beyond.iter().all(|beyond| *beyond < -unsure) {
+                return Verdict::Edge;
+            }
+        }
+        if !light.shadows {
+            return Verdict::Lit;
+        }
+        let mut shadow = Shadow::new(self.world, light, points);
+        if let Some(last) = self.last[number]
+            && !shadow.meet(last)
+        {
+            return Verdict::Shadow;
+        }
+        self.world.tree.descend(&mut shadow, &mut self.stack);
+        match shadow.counts.iter().filter(|count| **count > 0).count() {
+            0 => Verdict::Lit,
+            all if all == shadow.counts.len() => {
+                self.last[number] = shadow.whole.or(self.last[number]);
+                Verdict::Shadow
+            }
+            _ => Verdict::Edge,
+        }
+    }
+}
+
+/// The rays through one pixel's five places.
+struct Sight<'a> {
+    world: &'a World,
+    eye: DVec3,
+    forward: DVec3,
+    near: f64,
+    pixel: [DVec3; 2],
+    directions: [DVec3; 5],
+    /// Of the middle one.
+    inverse: DVec3,
+    /// How far the others are from the middle one, for each metre of depth.
+    spread: DVec3,
+    slack: f64,
+    nearest: [Nearest; 5],
+}
+
+#[derive(Clone, Copy)]
+struct Nearest {
+    depth: f64,
+    /// `u32::MAX` for none.
+    instance: u32,
+    /// Not at the cutoff of a mask.
+    sure: bool,
+}
+
+impl Bundle for Sight<'_> {
+    #[inline]
+    fn enters(&self, min: DVec3, max: DVec3) -> Option<f64> {
+        let (low, high) = (min - self.eye, max - self.eye);
+        // The farthest depth in the box: there the bundle is widest.
+        let deepest = (self.forward * low).max(self.forward * high).element_sum();
+        if deepest < self.near {
+            return None;
+        }
+        let grown = self.spread * deepest + self.slack;
+        enters(low - grown, high + grown, self.inverse, self.near, self.reach())
+    }
+
+    #[inline]
+    fn reach(&self) -> f64 {
+        self.nearest.iter().map(|met| met.depth).fold(0.0, f64::max)
+    }
+
+    fn meet(&mut self, index: u32) -> bool {
+        let face = &self.world.faces[index as usize];
+        if face.seen == Seen::Never {
+            return true;
+        }
+        let asked = face.from(self.eye);
+        for (direction, nearest) in self.directions.iter().zip(&mut self.nearest) {
+            let Some(met) = asked.meet(*direction) else { continue };
+            let front = met.counter_clockwise != face.mirrored;
+            if met.distance <= self.near || met.distance >= nearest.depth || !(front || face.seen == Seen::FromBothSides) {
+                continue;
+            }
+            let mask = face.mask.map_or(Mask::Surface, |mask| {
+                let beside = self.pixel.map(|step| asked.weights(*direction + step));
+                self.world.masks.at(mask, asked.weights(*direction), beside)
+            });
+            if mask != Mask::Hole {
+                *nearest = Nearest { depth: met.distance, instance: face.instance, sure: mask == Mask::Surface };
+            }
+        }
+        true
+    }
+}
+
+/// The rays between one pixel's points and a light: from the five points, and from the middle one to
+/// where the light is moved.
+///
+/// Rays with a common end are asked together: at a point light the five points' rays, at a
+/// directional light the middle point's.
+struct Shadow<'a> {
+    world: &'a World,
+    /// Of the middle ray, from the surface to the light.
+    origin: DVec3,
+    inverse: DVec3,
+    /// Where it ends, in units of its direction.
+    end: f64,
+    /// How far the others are from it at most.
+    spread: DVec3,
+    /// Where the first five rays begin, and where one more ray each.
+    apices: [DVec3; 5],
+    /// One more ray from each of the other apices.
+    directions: [DVec3; 9],
+    /// Rays run from the light, not to it.
+    from_light: bool,
+    counts: Counts,
+    /// Every triangle is to be counted, not only found out whether there is one.
+    counts_on: bool,
+    /// A triangle that every ray meets.
+    whole: Option<u32>,
+}
+
+impl<'a> Shadow<'a> {
+    fn new(world: &'a World, light: &PosedLight, points: &[DVec3; 5]) -> Self {
+        let spread = points.iter().fold(DVec3::ZERO, |most, point| most.max((*point - points[0]).abs()));
+        let (from_light, apices, directions, toward, end) = if let LightKind::Directional = light.kind {
+            let toward = -light.direction;
+            let moved = NUDGES.map(|by| -(light.direction + by * NUDGE).normalize());
+            let directions = [toward, moved[0], moved[1], moved[2], moved[3], toward, toward, toward, toward];
+            (false, *points, directions, toward, f64::INFINITY)
+        } else {
+            let moved = NUDGES.map(|by| light.position + by * (NUDGE * world.size));
+            let apices = [light.position, moved[0], moved[1], moved[2], moved[3]];
+            let [a, b, c, d, e] = points.map(|point| point - light.position);
+            let [f, g, h, i] = moved.map(|moved| points[0] - moved);
+            (true, apices, [a, b, c, d, e, f, g, h, i], light.position - points[0], 1.0)
+        };
+        Self {
+            world,
+            origin: points[0],
+            inverse: toward.recip(),
+            end,
+            // The light's moves, over the whole width of the world where it is a direction.
+            spread: spread + (4.0 * NUDGE + SLACK) * world.size + SLACK * world.largest,
+            apices,
+            directions,
+            from_light,
+            counts: [0; 9],
+            counts_on: false,
+            whole: None,
+        }
+    }
+
+    /// Whether this ray crosses the triangle so that it counts.
+    #[inline]
+    fn crosses(&self, face: &Face, asked: &Asked, direction: DVec3) -> bool {
+        asked.meet(direction).is_some_and(|met| {
+            let facing = (met.counter_clockwise != face.mirrored) == self.from_light;
+            met.distance > 0.0 && met.distance < self.end && (facing || face.casts == Casts::Always)
+        })
+    }
+}
+
+impl Bundle for Shadow<'_> {
+    #[inline]
+    fn enters(&self, min: DVec3, max: DVec3) -> Option<f64> {
+        let (low, high) = (min - self.origin - self.spread, max - self.origin + self.spread);
+        enters(low, high, self.inverse, 0.0, self.end)
+    }
+
+    #[inline]
+    fn reach(&self) -> f64 {
+        self.end
+    }
+
+    fn meet(&mut self, index: u32) -> bool {
+        let face = &self.world.faces[index as usize];
+        if face.casts == Casts::Never {
+            return true;
+        }
+        let mut met = 0;
+        for (number, apex) in self.apices.into_iter().enumerate() {
+            let asked = face.from(apex);
+            let rays = if number == 0 { 0..5 } else { number + 4..number + 5 };
+            for ray in rays {
+                if self.crosses(face, &asked, self.directions[ray]) {
+                    self.counts[ray] = self.counts[ray].wrapping_add(1);
+                    met += 1;
+                }
+            }
+        }
+        if met == self.counts.len() {
+            self.whole = Some(index);
+        }
+        self.counts_on || !self.counts.iter().all(|count| *count > 0)
+    }
+}
+
+/// Where a ray from the origin enters a box, not before `from` and not after `to`.
+#[inline]
+fn enters(low: DVec3, high: DVec3, inverse: DVec3, from: f64, to: f64) -> Option<f64> {
+    let (a, b) = (low * inverse, high * inverse);
+    let entry = a.min(b).max_element().max(from);
+    let exit = a.max(b).min_element().min(to);
+    (entry <= exit).then_some(entry)
+}

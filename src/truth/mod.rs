@@ -1,0 +1,55 @@
+//! What every pixel must be, by exact rays: the proof that the stencil is held against.
+//!
+//! A [`World`] is a scene at one point in time as triangles of world space, in double precision. From
+//! a camera it casts rays through every pixel, and from what they meet to a light:
+//!
+//! ```text
+//!        eye  --------- centre and four points 1/4 pixel around it ------> surface
+//!                                                                             |
+//!      light  <-- from each of the five; and to where the light stands <------+
+//!                 when it is moved by a millionth of the scene's size
+//! ```
+//!
+//! Only where all of them agree the pixel is *decided*: a picture that says otherwise there is wrong,
+//! and one wrong pixel is too many. Where they do not, an outline or the border of a shadow passes
+//! through the pixel, or the light grazes a surface: an [edge](Verdict::Edge), about which rounding
+//! may decide, counted but not asked about.
+//!
+//! ```no_run
+//! # use obscura::{frame::Camera, scene::{Pose, Scene}, truth::World};
+//! # fn held(scene: &Scene, pose: &Pose, camera: &Camera, picture: &image::RgbaImage) -> bool {
+//! let world = World::new(scene, pose); // once for each pose: views and lights may change
+//! let verdicts = world.judge(camera, &pose.lights[0], [320, 180]);
+//! verdicts.compare(picture).wrong() == 0 // `picture` as `show shadow` draws it
+//! # }
+//! ```
+//!
+//! # What is a surface, and what casts
+//!
+//! Surfaces are what the depth buffer gets: triangles beyond the near plane, from the front only
+//! unless their material is double-sided; of alpha-masked materials what their texture leaves, and
+//! near the cutoff nobody knows; blended materials are none.
+//!
+//! Casters are the triangles of a mesh's [topology](crate::geometry::topology), whole, masked or
+//! not. Of its solid components those count that face the light: a ray from inside a solid towards
+//! the light leaves it through one. Of the soup every one counts. So a light inside a solid shines
+//! out of it and one inside soup is shut in: that is what shadow volumes are asked to do here, and
+//! exactly that is verified. The ray starts a hair before the surface, on the side that is seen: the
+//! dark side of a sheet is in the sheet's own shadow.
+//!
+//! Spot lights are points with a range here, for `show shadow` does not know their cones.
+//!
+//! # Fast enough
+//!
+//! Five rays to the surface and nine to each light would be much for every pixel. But they run close
+//! together: the tree over the triangles is descended once for all of them, along the middle one with boxes grown by
+//! their distance from it, and only at the triangles are they told apart.
+
+mod compare;
+mod judge;
+mod mask;
+mod tree;
+mod world;
+
+pub use compare::{Comparison, Verdict, Verdicts, Wrong, WrongPixel};
+pub use world::World;

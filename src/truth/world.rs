@@ -1,0 +1,166 @@
+//! A scene at one point in time, as triangles of world space in double precision.
+
+use glam::{DVec2, DVec3};
+
+use super::mask::Masks;
+use super::tree::Tree;
+use crate::geometry::Aabb;
+use crate::scene::{AlphaMode, Mesh, Pose, Scene};
+
+/// What rays are cast through: everything that is seen or casts.
+///
+/// It stays right for every camera and light as long as nothing moves.
+#[derive(Debug)]
+pub struct World {
+    pub(super) faces: Vec<Face>,
+    pub(super) tree: Tree,
+    pub(super) masks: Masks,
+    /// Radius of the ball about everything shown, metres.
+    pub(super) size: f64,
+    /// The largest coordinate, metres.
+    pub(super) largest: f64,
+}
+
+/// One triangle.
+#[derive(Debug)]
+pub struct Face {
+    /// Metres, world space.
+    pub corners: [DVec3; 3],
+    /// The scene's instance it belongs to.
+    pub instance: u32,
+    /// Whether it is drawn into the depth buffer, and how.
+    pub seen: Seen,
+    pub casts: Casts,
+    /// Its object is turned inside out, so its front is where it looks clockwise.
+    pub mirrored: bool,
+    /// Its number among the masked ones.
+    pub mask: Option<u32>,
+}
+
+/// How a triangle is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Seen {
+    /// Not into the depth buffer.
+    Never,
+    FromFront,
+    FromBothSides,
+}
+
+/// When a triangle counts for a shadow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Casts {
+    Never,
+    /// Of a solid: when it faces the light.
+    FacingLight,
+    /// Of the soup.
+    Always,
+}
+
+impl World {
+    /// The scene as posed.
+    #[must_use]
+    pub fn new(scene: &Scene, pose: &Pose) -> Self {
+        let mut faces = Vec::new();
+        let mut masks = Masks::new(scene);
+        for (instance, (node_index, node, mesh)) in (0u32..).zip(scene.instances()) {
+            let world_from_object = pose.world_from_object[node_index];
+            let positions = pose.positions(scene, node_index);
+            let mirrored = world_from_object.matrix3.determinant() < 0.0;
+            let casts = if node.casts_shadow { casting(mesh) } else { Vec::new() };
+            for primitive in &mesh.primitives {
+                let material = &scene.materials[primitive.material];
+                let seen = match (material.alpha, material.double_sided) {
+                    (AlphaMode::Blend, _) => Seen::Never,
+                    (_, true) => Seen::FromBothSides,
+                    (_, false) => Seen::FromFront,
+                };
+                let first = primitive.first_index as usize / 3;
+                for triangle in first..first + primitive.index_count as usize / 3 {
+                    let casts = casts.get(triangle).copied().unwrap_or(Casts::Never);
+                    if seen == Seen::Never && casts == Casts::Never {
+                        continue;
+                    }
+                    let vertices = [0, 1, 2].map(|corner| mesh.indices[triangle * 3 + corner] as usize);
+                    let corners = vertices.map(|vertex| world_from_object.transform_point3(positions[vertex].as_dvec3()));
+                    let mask = if let AlphaMode::Mask(cutoff) = material.alpha {
+                        let corners = vertices.map(|vertex| (mesh.uvs[vertex].as_dvec2(), mesh.colors[vertex][3]));
+                        Some(masks.add(scene, material, cutoff, corners))
+                    } else {
+                        None
+                    };
+                    faces.push(Face { corners, instance, seen, casts, mirrored, mask });
+                }
+            }
+        }
+        let boxes: Vec<_> = faces.iter().map(Face::bounds).collect();
+        let bounds = scene.bounds(pose);
+        let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
+        let largest = if largest.is_finite() { f64::from(largest) } else { 0.0 };
+        Self { tree: Tree::new(&boxes), faces, masks, size: f64::from(bounds.radius()), largest }
+    }
+}
+
+/// Of each of the mesh's triangles, when it counts.
+fn casting(mesh: &Mesh) -> Vec<Casts> {
+    let mut casts = vec![Casts::Never; mesh.indices.len() / 3];
+    for (&triangle, &soup) in mesh.topology.mesh_triangles().iter().zip(mesh.topology.two_sided()) {
+        casts[triangle as usize] = if soup { Casts::Always } else { Casts::FacingLight };
+    }
+    casts
+}
+
+impl Face {
+    fn bounds(&self) -> Aabb {
+        let [a, b, c] = self.corners;
+        Aabb::around(a.min(b).min(c), a.max(b).max(c))
+    }
+
+    /// The triangle as rays from `apex` ask it.
+    #[inline]
+    pub fn from(&self, apex: DVec3) -> Asked {
+        let [a, b, c] = self.corners;
+        let (ab, ac, s) = (b - a, c - a, apex - a);
+        let (normal, v) = (ac.cross(ab), s.cross(ab));
+        Asked { normal, u: ac.cross(s), v, height: ac.dot(v) }
+    }
+}
+
+/// A triangle seen from a point, ready for many rays from there: Möller and Trumbore's test
+/// (1997), its products taken apart so that each ray costs three of them.
+#[derive(Debug, Clone, Copy)]
+pub struct Asked {
+    normal: DVec3,
+    u: DVec3,
+    v: DVec3,
+    height: f64,
+}
+
+/// Where a ray meets a triangle.
+#[derive(Debug, Clone, Copy)]
+pub struct Met {
+    /// In units of the ray's direction.
+    pub distance: f64,
+    /// The ray comes from the side where the corners run counter-clockwise.
+    pub counter_clockwise: bool,
+}
+
+impl Asked {
+    /// Along `direction`, before or behind the apex.
+    #[inline]
+    pub fn meet(&self, direction: DVec3) -> Option<Met> {
+        let determinant = direction.dot(self.normal);
+        let (u, v) = (direction.dot(self.u), direction.dot(self.v));
+        let inside = if determinant > 0.0 {
+            u >= 0.0 && v >= 0.0 && u + v <= determinant
+        } else {
+            determinant < 0.0 && u <= 0.0 && v <= 0.0 && u + v >= determinant
+        };
+        inside.then(|| Met { distance: self.height / determinant, counter_clockwise: determinant > 0.0 })
+    }
+
+    /// The weights of the second and the third corner where the ray meets the triangle's plane.
+    #[inline]
+    pub fn weights(&self, direction: DVec3) -> DVec2 {
+        DVec2::new(direction.dot(self.u), direction.dot(self.v)) / direction.dot(self.normal)
+    }
+}
