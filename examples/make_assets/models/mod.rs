@@ -9,6 +9,7 @@ mod polygon;
 mod skeleton;
 mod solids;
 mod soup;
+mod stairs;
 mod teapot;
 mod texture;
 
@@ -22,5 +23,6 @@ pub fn all() -> Vec<(&'static str, Vec<u8>)> {
         ("architecture.glb", architecture::file()),
         ("furniture.glb", furniture::file()),
         ("walker.glb", figure::file()),
+        ("stairs.glb", stairs::file()),
     ]
 }

@@ -148,6 +148,22 @@ pub fn ashlar() -> Vec<u8> {
     })
 }
 
+/// Large rough blocks of sandstone, no two alike, joints fine; half the resolution of [`ashlar`].
+pub fn sandstone() -> Vec<u8> {
+    const ROWS: i64 = 4;
+    png(256, |p| {
+        let v = p.y * ROWS as f64;
+        let row = v.floor() as i64;
+        let u = p.x * 2.0 + [0.0, 0.55, 0.2, 0.7][row.rem_euclid(ROWS) as usize];
+        let column = (u.floor() as i64).rem_euclid(2);
+        let stone = mix([0.74, 0.65, 0.53], [0.86, 0.78, 0.65], hash(column, row, 100));
+        let tone = 0.84 + 0.22 * clouds(p * 6.0, 6, 101) + 0.08 * (noise(p * 64.0, 64, 105) - 0.5);
+        let (x, y) = ((u - u.floor() - 0.5).abs(), (v - v.floor() - 0.5).abs());
+        let joint = smoothstep(0.485, 0.494, x).max(smoothstep(0.470, 0.486, y));
+        mix(scale(stone, tone), [0.46, 0.39, 0.31], joint * 0.75)
+    })
+}
+
 /// Worn lime plaster, a grey that a base colour tints.
 pub fn plaster() -> Vec<u8> {
     png(256, |p| {

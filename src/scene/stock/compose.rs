@@ -27,7 +27,7 @@ pub(super) type Model = (&'static str, &'static [u8]);
 
 /// All of them.
 #[cfg(test)]
-pub(super) const MODELS: [Model; 7] = [SOLIDS, TEAPOT, CUTOUT, FLOORS, ARCHITECTURE, FURNITURE, WALKER];
+pub(super) const MODELS: [Model; 8] = [SOLIDS, TEAPOT, CUTOUT, FLOORS, ARCHITECTURE, FURNITURE, WALKER, STAIRS];
 
 pub(super) const SOLIDS: Model = model!("solids");
 pub(super) const TEAPOT: Model = model!("teapot");
@@ -36,6 +36,7 @@ pub(super) const FLOORS: Model = model!("floors");
 pub(super) const ARCHITECTURE: Model = model!("architecture");
 pub(super) const FURNITURE: Model = model!("furniture");
 pub(super) const WALKER: Model = model!("walker");
+pub(super) const STAIRS: Model = model!("stairs");
 
 /// Seconds the walker takes for two steps, as its model says.
 pub(super) const STRIDE_SECONDS: f64 = 1.16;

@@ -5,6 +5,7 @@ mod courtyard;
 mod cubes;
 mod eye_in_shadow;
 mod grid;
+mod stairs;
 mod teapots;
 #[cfg(test)]
 mod tests;
@@ -48,6 +49,11 @@ pub static TABLE: &[StockScene] = &[
         name: "eye-in-shadow",
         about: "the camera stands in the shadow of a great disc and looks to the light: plain z-pass fails here",
         build: eye_in_shadow::build,
+    },
+    StockScene {
+        name: "stairs",
+        about: "a beacon on top of 264 steps: at their foot 256 shadow volumes lie one in another, and eight bits count to none (McGuire et al. 2003, image 3)",
+        build: stairs::build,
     },
 ];
 
