@@ -1,8 +1,10 @@
 //! Pure math, no GPU and no scene: bounds, frusta, mesh topology, silhouettes, shadow volumes.
 
 pub mod bounds;
+pub mod cutout;
 pub mod ending;
 pub mod eye_count;
+pub mod flatten;
 pub mod frustum;
 pub mod overlap;
 pub mod silhouette;
