@@ -249,6 +249,7 @@ impl<'a> Frame<'a> {
                 light: posed,
                 receivers: &self.receivers,
                 eye_count: OnceCell::new(),
+                cutout: OnceCell::new(),
             })
             .collect();
         counting::count_light(row, &casters, light, scissor, self.plan.budget, &mut self.plan.volumes)

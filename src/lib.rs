@@ -89,6 +89,10 @@
 //! Which triangles face the light is decided once; silhouette, caps and the eye's count read that one
 //! decision, so a volume is closed whatever rounding does ([`geometry::silhouette`]). Z-fail and exact
 //! z-pass are two roads to one count, and a test holds them to the same stencil value in every pixel.
+//!
+//! A volume may be thrown from something else than its caster's silhouette: a planar cut-out, or the
+//! silhouette flattened into one ([`frame::Cutout`]). The shape of a volume and the way it is counted
+//! are independent; such volumes are thrown by a matrix and counted by z-fail.
 
 pub mod app;
 pub mod cli;

@@ -206,6 +206,10 @@ named! {
         ZFail = "z-fail",
         /// Sides only, counted from the eye's own count, exact at the near plane.
         ExactZPass = "exact-z-pass",
+        /// Kilgard's planar cut-outs: flat casters by their outline and one matrix.
+        Cutout = "cutout",
+        /// Kilgard's flattened silhouettes: every caster reduced to a cut-out for each light.
+        Flattened = "flattened",
     }
 }
 

@@ -1,6 +1,8 @@
 // Shadow volume vertices (M section 6): the buffer holds each vertex twice, with w = 1 where it is
 // and w = 0 where the light throws it: onto the plane where the volume ends, which may be the one at
 // infinity. A directional light throws all of them to one point at infinity.
+//
+// A cut-out's vertices with w = 0 go through its matrix instead (K 6.2.1, appendix C, "Advanced").
 
 fn volume_position(vertex: vec4f, volume: u32) -> vec4f {
     let light = volumes[volume].light_in_object;
@@ -10,6 +12,9 @@ fn volume_position(vertex: vec4f, volume: u32) -> vec4f {
     let way = vertex.xyz * light.w - light.xyz;
     let slope = dot(end.xyz, way);
     let height = -(dot(end.xyz, light.xyz) + end.w);
-    let thrown = vec4f(light.xyz * slope + way * height, slope);
+    var thrown = vec4f(light.xyz * slope + way * height, slope);
+    if volumes[volume].by_matrix == 1u {
+        thrown = volumes[volume].thrown * vec4f(vertex.xyz, 1.0);
+    }
     return clip_position(volumes[volume].object, select(thrown, vec4f(vertex.xyz, 1.0), vertex.w == 1.0));
 }

@@ -7,6 +7,7 @@ use super::camera::Camera;
 use super::state::Winding;
 use super::stencil::BitBudget;
 use super::step::{Action, Draw, Step};
+use crate::geometry::cutout::{CutoutPlane, Throw};
 
 /// Everything that one frame does, in order: ids and values only.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -60,10 +61,33 @@ pub struct VolumePlan {
     pub holds_eye: i32,
     /// The plane it ends on, world space, outward normal and offset; none where it goes to infinity.
     pub end: Option<DVec4>,
+    /// What its volume is thrown from, where that is not the caster's own silhouette.
+    pub cutout: Option<Cutout>,
     /// Whether some of its triangles may have to be turned to face the light: an open caster's.
     pub turns: bool,
     /// The front's winding on screen.
     pub winding: Winding,
+}
+
+/// A cut-out that a volume is thrown from, in the caster's object space.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Cutout {
+    /// Where it comes from.
+    pub shape: CutoutShape,
+    /// On which it lies.
+    pub plane: CutoutPlane,
+    /// How its far copy is made.
+    pub throw: Throw,
+}
+
+/// Where a cut-out comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CutoutShape {
+    /// The caster lies on one plane: it is the cut-out itself.
+    Planar,
+    /// The caster's silhouette, flattened onto a plane behind it.
+    Flattened,
 }
 
 /// How a volume is counted.
@@ -101,6 +125,16 @@ pub enum Reason {
     NoDepthClamp,
     /// The caster lies wholly beyond the light's range.
     OutOfRange,
+    /// All of the caster lies on one plane: its outline is thrown by one matrix.
+    Planar,
+    /// The caster does not lie on one plane.
+    NotPlanar,
+    /// The light looks along the cut-out's plane, or nearly.
+    LightInPlane,
+    /// The caster's silhouette was flattened into a cut-out.
+    Flattened,
+    /// The light stands in the caster, or so near that it cannot be projected on one plane.
+    LightTooNear,
 }
 
 impl Reason {
@@ -115,6 +149,11 @@ impl Reason {
             Self::EyeOnBoundary => "the eye lies on the volume's boundary",
             Self::NoDepthClamp => "the device has no depth clamp",
             Self::OutOfRange => "the caster lies beyond the light's range",
+            Self::Planar => "the caster is a planar cut-out, thrown by one matrix",
+            Self::NotPlanar => "the caster is no planar cut-out",
+            Self::LightInPlane => "the light looks along the cut-out's plane",
+            Self::Flattened => "the caster was flattened into a cut-out",
+            Self::LightTooNear => "the light is too near to flatten the caster",
         }
     }
 }

@@ -33,6 +33,9 @@ impl Display for FramePlan {
             if let Some(end) = volume.end {
                 write!(f, "; ends where ({}) . x = {:.3}", end.truncate(), -end.w)?;
             }
+            if let Some(cutout) = volume.cutout {
+                write!(f, "; {:?} cut-out, thrown with a share of {:.4}", cutout.shape, cutout.throw.share)?;
+            }
             writeln!(f)?;
         }
         for (number, step) in self.steps.iter().enumerate() {

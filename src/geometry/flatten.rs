@@ -31,7 +31,7 @@
 //! **Where it cannot be done.** The light must see all of the caster before it, within a cone that
 //! stays clear of a half-space: not from inside, nor from close above something wide.
 
-use glam::{DVec2, DVec3, DVec4, Vec3};
+use glam::{DVec2, DVec4, Vec3};
 use i_triangle::float::triangulation::Triangulation;
 use i_triangle::float::triangulator::Triangulator;
 
@@ -42,7 +42,7 @@ use super::cutout::CutoutPlane;
 /// with w = 1, or the direction towards it with w = 0): square to the way from the light to the
 /// middle, behind the last vertex, its normal towards the light. `None` where the light is too near.
 #[must_use]
-pub fn flattening_plane(welded: &[Vec3], bounds: &Aabb, light: DVec4) -> Option<CutoutPlane> {
+pub fn flattening_plane(welded: impl IntoIterator<Item = Vec3>, bounds: &Aabb, light: DVec4) -> Option<CutoutPlane> {
     // The least cosine between the way to a vertex and the way to the middle.
     const NARROWEST: f64 = 0.1;
     let middle = bounds.center().as_dvec3();
@@ -178,6 +178,7 @@ mod tests {
     use super::*;
     use crate::geometry::silhouette::silhouette;
     use crate::geometry::{Facing, Planes, Topology, Weld};
+    use glam::DVec3;
     use std::cmp::Ordering;
     use std::f64::consts::{PI, TAU};
 
@@ -263,7 +264,7 @@ mod tests {
         let mut edges = Vec::new();
         silhouette(topology, &facing, &mut edges);
         let bounds = Aabb::from_points(welded.iter().copied());
-        let plane = flattening_plane(welded, &bounds, light).unwrap();
+        let plane = flattening_plane(welded.iter().copied(), &bounds, light).unwrap();
         assert!(welded.iter().all(|v| plane.height(v.as_dvec3().extend(1.0)) > 0.0), "the plane is behind");
         let counted = topology.triangles().iter().zip(facing.contributions()).filter(|(_, counts)| **counts != 0);
         let every: Vec<_> = counted
@@ -305,11 +306,11 @@ mod tests {
     fn a_light_inside_or_close_above_cannot_flatten() {
         let (_, welded) = torus();
         let bounds = Aabb::from_points(welded.iter().copied());
-        let plane = |light: (f64, f64, f64, f64)| flattening_plane(&welded, &bounds, light.into());
+        let plane = |light: (f64, f64, f64, f64)| flattening_plane(welded.iter().copied(), &bounds, light.into());
         assert!(plane((0.0, 0.0, 9.0, 1.0)).is_some() && plane((0.0, 0.0, -1.0, 0.0)).is_some());
         assert!(plane((0.0, 0.0, 0.6, 1.0)).is_none(), "close above the hole");
         assert!(plane((2.0, 0.0, 0.0, 1.0)).is_none(), "inside the tube");
-        assert!(flattening_plane(&[], &Aabb::EMPTY, DVec4::Z).is_none());
+        assert!(flattening_plane([], &Aabb::EMPTY, DVec4::Z).is_none());
     }
 
     #[test]

@@ -108,6 +108,16 @@ impl Facing {
         }
     }
 
+    /// Decides for a cut-out, all of it on one plane: every triangle counts, those turned round whose
+    /// own normal points away from `towards`, the plane's normal on the light's side.
+    pub fn decide_planar(&mut self, topology: &Topology, welded: &[Vec3], towards: DVec3) {
+        self.contributions.clear();
+        self.contributions.extend(topology.triangles().iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|vertex| welded[vertex as usize].as_dvec3());
+            if (b - a).cross(c - a).dot(towards) >= 0.0 { 1 } else { -1 }
+        }));
+    }
+
     /// One per triangle of the topology.
     #[must_use]
     pub fn contributions(&self) -> &[i8] {

@@ -21,6 +21,7 @@ use glam::{DVec3, Vec3};
 use serde::Serialize;
 
 use super::Weld;
+use super::cutout::CutoutPlane;
 use super::overlap::is_convex;
 
 /// Most vertices, and most indices, of a mesh. A volume has up to eight indices for each index of
@@ -36,6 +37,7 @@ pub struct Topology {
     two_sided: Vec<bool>,
     pairs: PairEdges,
     others: OtherEdges,
+    plane: Option<CutoutPlane>,
     report: TopologyReport,
     convex: bool,
 }
@@ -132,6 +134,7 @@ impl Topology {
         topology.find_edges();
         topology.find_solids(positions);
         topology.convex = is_convex(&topology, positions);
+        topology.plane = topology.plane_of(positions);
         topology
     }
 
@@ -285,6 +288,19 @@ impl Topology {
     #[must_use]
     pub fn convex(&self) -> bool {
         self.convex
+    }
+
+    /// The plane on which all of it lies, where there is one: the mesh is a planar cut-out.
+    #[must_use]
+    pub fn plane(&self) -> Option<CutoutPlane> {
+        self.plane
+    }
+
+    /// The same for the mesh's vertices at other positions.
+    #[must_use]
+    pub fn plane_of(&self, positions: &[Vec3]) -> Option<CutoutPlane> {
+        let position = |&welded: &u32| positions[self.weld.vertex_of_welded[welded as usize] as usize];
+        CutoutPlane::of(self.triangles.iter().flatten().map(position))
     }
 
     /// What the mesh is made of.

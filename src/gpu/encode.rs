@@ -245,15 +245,20 @@ impl Encode<'_> {
             if range.is_empty() {
                 continue;
             }
+            let first_vertex = self.frame.first_vertices[part.volume];
             let instance = plan.volumes[part.volume].instance;
-            if bound != Some(instance) {
-                let vertices = self.buffers.vertices(instance, instances[instance].1.mesh.unwrap_or(0));
-                pass.set_vertex_buffer(0, vertices.volume.slice(..));
-                bound = Some(instance);
+            let vertices_of = if first_vertex.is_some() { Bound::Cutouts } else { Bound::Instance(instance) };
+            if bound != Some(vertices_of) {
+                let of_mesh = || &self.buffers.vertices(instance, instances[instance].1.mesh.unwrap_or(0)).volume;
+                let buffer = if first_vertex.is_some() { self.frame.cutout_vertices.buffer() } else { Some(of_mesh()) };
+                let Some(buffer) = buffer else { continue };
+                pass.set_vertex_buffer(0, buffer.slice(..));
+                bound = Some(vertices_of);
             }
             let volume = u32::try_from(part.volume).unwrap_or(0);
             let triangles = u64::from((range.end - range.start) / 3);
-            pass.draw_indexed(range, 0, volume..volume + 1);
+            let base_vertex = first_vertex.and_then(|first| i32::try_from(first).ok()).unwrap_or(0);
+            pass.draw_indexed(range, base_vertex, volume..volume + 1);
             drawn.draws += 1;
             drawn.triangles += triangles;
             drawn.volume_triangles += triangles;
@@ -272,6 +277,13 @@ impl Encode<'_> {
             drawn.draws += 1;
         }
     }
+}
+
+/// Whose volume vertices are bound.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Bound {
+    Instance(usize),
+    Cutouts,
 }
 
 fn range_of(indices: &VolumeIndices, part: Part) -> std::ops::Range<u32> {

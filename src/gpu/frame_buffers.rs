@@ -4,6 +4,7 @@ use bytemuck::cast_slice;
 use glam::{DAffine3, DMat3, DMat4, DVec4, Mat4, Vec3, Vec4};
 
 use super::context::{Context, GpuError};
+use super::cutouts::{CutoutScratch, thrown};
 use super::scene_buffers::SceneBuffers;
 use super::slides::Slides;
 use super::types::{Draw, Frame, Light, Object, Volume};
@@ -28,6 +29,10 @@ pub struct FrameBuffers {
     /// Where each planned volume's parts stand among them.
     pub volume_indices: Vec<VolumeIndices>,
     slides: Slides,
+    /// Vertices of volumes that are thrown from a flattened silhouette, `Float32x4`.
+    pub cutout_vertices: Growing,
+    /// Where each planned volume's vertices start among those; `None` where they are its mesh's.
+    pub first_vertices: Vec<Option<u32>>,
     bind_group: Option<wgpu::BindGroup>,
     scratch: Scratch,
 }
@@ -41,6 +46,7 @@ struct Scratch {
     draws: Vec<u8>,
     indices: Vec<u32>,
     volume: VolumeScratch,
+    cutouts: CutoutScratch,
     parts: Vec<Option<VolumeParts>>,
 }
 
@@ -94,6 +100,8 @@ impl Default for FrameBuffers {
             indices: Growing::new("volume indices", wgpu::BufferUsages::INDEX),
             volume_indices: Vec::new(),
             slides: Slides::default(),
+            cutout_vertices: Growing::new("cut-out vertices", wgpu::BufferUsages::VERTEX),
+            first_vertices: Vec::new(),
             bind_group: None,
             scratch: Scratch::default(),
         }
@@ -153,6 +161,7 @@ impl FrameBuffers {
         grown |= self.volumes.write(context, cast_slice(&scratch.volumes), size_of::<Volume>());
         grown |= self.draws.write(context, &scratch.draws, DRAW_STRIDE as usize);
         self.indices.write(context, cast_slice(&scratch.indices), 4);
+        self.cutout_vertices.write(context, cast_slice(&scratch.cutouts.vertices), 16);
         if grown || self.bind_group.is_none() {
             self.bind_group = self.make_bind_group(context, layout);
         }
@@ -201,7 +210,9 @@ impl FrameBuffers {
         }
         scratch.indices.clear();
         scratch.volumes.clear();
+        scratch.cutouts.vertices.clear();
         self.volume_indices.clear();
+        self.first_vertices.clear();
         let instances: Vec<_> = scene.instances().collect();
         for (volume, wanted) in plan.volumes.iter().zip(&scratch.parts) {
             let (node_index, node, mesh) = instances[volume.instance];
@@ -209,11 +220,14 @@ impl FrameBuffers {
             scratch.volumes.push(Volume {
                 light_in_object: light.to_array(),
                 end_in_object: end_in_object(volume.end, &pose.world_from_object[node_index]).to_array(),
+                thrown: volume.cutout.as_ref().map_or(Mat4::IDENTITY, thrown).to_cols_array_2d(),
                 object: u32::try_from(volume.instance).unwrap_or(0),
-                _pad: [0; 3],
+                by_matrix: u32::from(volume.cutout.is_some()),
+                _pad: [0; 2],
             });
             let Some(parts) = *wanted else {
                 self.volume_indices.push(VolumeIndices::default());
+                self.first_vertices.push(None);
                 continue;
             };
             let vertices = buffers.vertices(volume.instance, node.mesh.unwrap_or(0));
@@ -223,7 +237,12 @@ impl FrameBuffers {
                 planes: &vertices.planes,
                 bounds: &pose.bounds(scene, node_index),
             };
-            self.volume_indices.push(scratch.volume.append(caster, light, parts, &mut scratch.indices));
+            let (indices, first_vertex) = match &volume.cutout {
+                Some(cutout) => scratch.cutouts.append(caster, light, cutout, parts, &mut scratch.indices),
+                None => (scratch.volume.append(caster, light, parts, &mut scratch.indices), None),
+            };
+            self.volume_indices.push(indices);
+            self.first_vertices.push(first_vertex);
         }
     }
 

@@ -4,6 +4,7 @@
 //! dealt with by making both anew from the CPU scene.
 
 pub mod context;
+mod cutouts;
 mod encode;
 mod frame_buffers;
 pub mod pipelines;

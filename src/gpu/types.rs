@@ -81,10 +81,14 @@ pub struct Volume {
     pub light_in_object: [f32; 4],
     /// The plane the volume ends on, in the same space.
     pub end_in_object: [f32; 4],
+    /// Where a cut-out's far vertices go: homogeneous object space.
+    pub thrown: [[f32; 4]; 4],
     /// The caster's instance number.
     pub object: u32,
+    /// 1 for cut-outs, whose far vertices are thrown by the matrix.
+    pub by_matrix: u32,
     #[doc(hidden)]
-    pub _pad: [u32; 3],
+    pub _pad: [u32; 2],
 }
 
 /// `struct Draw` of `shared/frame.wgsl`: one a step, at a dynamic offset.

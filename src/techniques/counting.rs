@@ -13,7 +13,7 @@ use crate::frame::plan::View;
 use crate::frame::state::{Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{
-    Action, Capabilities, Draw, DrawSet, Look, Method, Part, Program, Reason, Step, Target, VolumePart, VolumePlan,
+    Action, Capabilities, Cutout, Draw, DrawSet, Look, Method, Part, Program, Reason, Step, Target, VolumePart, VolumePlan,
 };
 use crate::geometry::Aabb;
 use crate::geometry::ending::ending_plane;
@@ -48,6 +48,8 @@ pub struct Caster<'a> {
     pub receivers: &'a Aabb,
     /// What [`Self::holds_eye`] found, once asked.
     pub eye_count: OnceCell<Option<i32>>,
+    /// What its volume is thrown from, once a technique decided that it is not its own silhouette.
+    pub cutout: OnceCell<Cutout>,
 }
 
 impl Caster<'_> {
@@ -102,6 +104,20 @@ impl Caster<'_> {
         !self.light.range.is_finite() || nearest.distance(self.light.position) <= self.light.range
     }
 
+    /// The light in object space: a point with w = 1, or the direction towards it with w = 0.
+    #[must_use]
+    pub fn light_in_object(&self) -> DVec4 {
+        light_in_object(&self.pose.world_from_object[self.node_index], self.light)
+    }
+
+    /// The corners, in object space, of what holds everything that could receive its shadow, and the
+    /// eye.
+    #[must_use]
+    pub fn receivers_in_object(&self) -> [DVec3; 8] {
+        let object_from_world = self.pose.world_from_object[self.node_index].inverse();
+        self.receivers.corners().map(|corner| object_from_world.transform_point3(corner))
+    }
+
     /// The plane on which its volume may end without a visible pixel's count changing.
     #[must_use]
     pub fn end(&self) -> Option<DVec4> {
@@ -143,6 +159,7 @@ pub fn count_light(
         let decided = if caster.in_range() { (row.decide)(caster) } else { Some((Method::Dropped, Reason::OutOfRange)) };
         let Some((method, reason)) = decided else { continue };
         let holds_eye = if method == Method::ExactZPass { caster.holds_eye().unwrap_or(0) } else { 0 };
+        let cutout = caster.cutout.get().copied();
         let turns = !caster.mesh.topology.report().is_solid();
         volumes.push(VolumePlan {
             instance: caster.instance,
@@ -150,7 +167,8 @@ pub fn count_light(
             method,
             reason,
             holds_eye,
-            end: caster.end(),
+            end: if cutout.is_none() { caster.end() } else { None },
+            cutout,
             turns,
             winding: caster.winding(),
         });

@@ -9,7 +9,9 @@
 //! [`TABLE`]; panel, command line, lists and the tour read those.
 
 pub mod counting;
+mod cutout;
 mod exact_z_pass;
+mod flattened;
 mod none;
 pub mod show;
 pub mod surfaces;
@@ -41,7 +43,7 @@ pub struct Row {
 }
 
 /// Every technique, in the order of [`Technique::ALL`].
-pub static TABLE: &[Row] = &[none::ROW, z_pass::ROW, z_fail::ROW, exact_z_pass::ROW];
+pub static TABLE: &[Row] = &[none::ROW, z_pass::ROW, z_fail::ROW, exact_z_pass::ROW, cutout::ROW, flattened::ROW];
 
 /// The row of a technique.
 #[must_use]
