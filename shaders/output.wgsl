@@ -3,6 +3,16 @@
 
 @group(1) @binding(0) var scene_color: texture_2d<f32>;
 @group(1) @binding(1) var scene_stencil: texture_2d<u32>;
+@group(1) @binding(2) var mean_before: texture_2d<f32>;
+
+// The scene joins the mean of the frames before it, by the weight it has there.
+@fragment
+fn gather(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    let scene = textureLoad(scene_color, vec2i(pixel.xy), 0);
+    let before = textureLoad(mean_before, vec2i(pixel.xy), 0);
+    // The first frame's weight is 1, and what is there before it is nobody's.
+    return select(before + (scene - before) * draw.constant.x, scene, draw.constant.x == 1.0);
+}
 
 // Linear light to the picture. Khronos' PBR Neutral curve (2024): what is below 0.8 keeps its hue
 // and nearly its value, what is above is brought down to 1 and gently bleached.

@@ -6,18 +6,20 @@
 
 use std::cell::OnceCell;
 
+use glam::DVec2;
 use thiserror::Error;
 
 use crate::frame::plan::View;
 use crate::frame::state::Winding;
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::validate::{Fault, validate};
-use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, Step};
+use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, Gather, Step};
 use crate::geometry::Aabb;
 use crate::geometry::frustum::{NearPyramid, screen_rect};
+use crate::scene::area::sequence;
 use crate::scene::pose::pose;
 use crate::scene::{Pose, Sampling, Scene};
-use crate::settings::{Settings, Show, Technique};
+use crate::settings::{MAX_FRAMES, Settings, Show, Technique};
 use crate::techniques::{self, Caster, counting, show, surfaces};
 
 /// Why a frame cannot be planned: one line each.
@@ -54,6 +56,29 @@ const MOST_POINTS: usize = 2048;
 /// # Errors
 /// Settings that ask for what is not there.
 pub fn stage(settings: &Settings, scene: &Scene, capabilities: &Capabilities) -> Result<(Pose, FramePlan), StageError> {
+    stage_frame(settings, scene, capabilities, 0)
+}
+
+/// How many frames make one picture: those whose mean it is, or one.
+#[must_use]
+pub fn frames(settings: &Settings) -> u32 {
+    // Exact values have no mean.
+    let exact_values = matches!(settings.show, Show::Stencil | Show::Shadow);
+    if exact_values { 1 } else { settings.lighting.accumulate.clamp(1, MAX_FRAMES) }
+}
+
+/// [`stage`] for one of the [`frames`], from 0: each has other points of the lights with a size, and all
+/// but the first look past the middle of their pixels by less than half of one. Drawn in order, each leaves
+/// the mean of all so far.
+///
+/// # Errors
+/// Settings that ask for what is not there.
+pub fn stage_frame(
+    settings: &Settings,
+    scene: &Scene,
+    capabilities: &Capabilities,
+    frame: u32,
+) -> Result<(Pose, FramePlan), StageError> {
     let [width, height] = settings.size;
     let largest = capabilities.max_size.min(crate::settings::MAX_SIZE);
     if width == 0 || height == 0 || width > largest || height > largest {
@@ -70,14 +95,20 @@ pub fn stage(settings: &Settings, scene: &Scene, capabilities: &Capabilities) ->
         return Err(StageError::Light(settings.light, scene.lights.len()));
     }
     let mut pose = pose(scene, settings.time, settings.animation.unwrap_or(scene.default_animation), &settings.lights);
-    let sampling = Sampling { samples: settings.lighting.area_samples, frame: 0, frames: 1 };
+    let sampling = Sampling { samples: settings.lighting.area_samples, frame };
     let points = pose.lights.iter().map(|light| sampling.points(light) as usize).sum();
     if points > MOST_POINTS {
         return Err(StageError::Points(points));
     }
     pose.expand_lights(sampling, settings.light, settings.lighting.light_sample);
-    let camera = Camera::choose(settings, scene, &pose)?;
-    let plan = plan(settings, scene, &pose, camera, capabilities);
+    let mut camera = Camera::choose(settings, scene, &pose)?;
+    let frames = frames(settings);
+    if frame > 0 {
+        let beside = DVec2::from(sequence(frame.into(), 0)) - 0.5;
+        camera.shift = beside * 2.0 / DVec2::new(width.into(), height.into());
+    }
+    let gather = (frames > 1).then_some(Gather { frame, frames });
+    let plan = plan(settings, scene, &pose, camera, capabilities, gather);
     validate(&plan)?;
     Ok((pose, plan))
 }
@@ -86,8 +117,16 @@ pub fn stage(settings: &Settings, scene: &Scene, capabilities: &Capabilities) ->
 /// light where the count is zero; then what is blended, what is shown of the inner works, and the
 /// picture.
 #[must_use]
-pub fn plan(settings: &Settings, scene: &Scene, pose: &Pose, camera: Camera, capabilities: &Capabilities) -> FramePlan {
+pub fn plan(
+    settings: &Settings,
+    scene: &Scene,
+    pose: &Pose,
+    camera: Camera,
+    capabilities: &Capabilities,
+    gather: Option<Gather>,
+) -> FramePlan {
     let mut frame = Frame::new(settings, scene, pose, camera, capabilities);
+    frame.plan.gather = gather;
     let whole = frame.whole();
     let groups = surfaces::opaque_groups(scene, pose, &frame.plan.views[0], frame.plan.size);
 
@@ -150,6 +189,9 @@ pub fn plan(settings: &Settings, scene: &Scene, pose: &Pose, camera: Camera, cap
                 Show::Wireframe => frame.push(show::wireframe(scene.instances().count(), whole)),
                 _ => {}
             }
+            if let Some(gather) = gather {
+                frame.push(show::gather(gather, whole));
+            }
             frame.push(show::tone_map(whole));
         }
     }
@@ -189,6 +231,8 @@ impl<'a> Frame<'a> {
             views: vec![View { name: "eye".into(), camera, winding: Winding::Ccw }],
             volumes: Vec::new(),
             steps: Vec::new(),
+            accumulation: settings.lighting.accumulation,
+            gather: None,
             points: pose.lights.iter().map(|light| light.of).collect(),
             notes,
         };

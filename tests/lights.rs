@@ -7,10 +7,12 @@ mod common;
 use common::{Build, Stage, cube, seen_from};
 use glam::{DVec3, Vec3};
 use image::RgbaImage;
-use obscura::director::{StageError, stage};
-use obscura::frame::Capabilities;
+use obscura::director::{StageError, frames, stage, stage_frame};
+use obscura::frame::validate::validate;
+use obscura::frame::{Action, Capabilities, Gather, Program, Target};
+use obscura::gpu::readback;
 use obscura::scene::{Environment, Extent, LightKind, Scene, Texture, Wrap};
-use obscura::settings::{LightEdit, Lighting, Settings, Show, SlideChoice};
+use obscura::settings::{Accumulation, LightEdit, Lighting, Settings, Show, SlideChoice};
 
 const SIZE: [u32; 2] = [160, 160];
 
@@ -142,4 +144,114 @@ fn the_plan_counts_each_point_by_itself() {
     many.lights = vec![scene.lights[0].clone(); 40];
     let error = stage(&sampled(&settings, 64), &many, &Capabilities::complete()).unwrap_err();
     assert!(matches!(error, StageError::Points(2560)), "{error}");
+}
+
+/// The mean of so many frames.
+fn gathered(stage: &mut Stage, scene: &Scene, settings: &Settings, accumulate: u32) -> RgbaImage {
+    let settings = Settings { lighting: Lighting { accumulate, ..settings.lighting }, ..settings.clone() };
+    let mut image = None;
+    for frame in 0..frames(&settings) {
+        let (pose, plan) = stage_frame(&settings, scene, stage.context.capabilities(), frame).unwrap();
+        image = Some(readback::picture(&stage.context, &mut stage.renderer, &plan, scene, &pose).unwrap().1);
+    }
+    image.unwrap()
+}
+
+fn levels(image: &RgbaImage) -> usize {
+    image.pixels().map(|pixel| pixel.0).collect::<std::collections::BTreeSet<_>>().len()
+}
+
+fn largest_difference(a: &RgbaImage, b: &RgbaImage) -> u8 {
+    let differences = a.pixels().zip(b.pixels()).map(|(a, b)| (0..3).map(|i| a.0[i].abs_diff(b.0[i])).max().unwrap_or(0));
+    differences.max().unwrap_or(0)
+}
+
+/// Sixteen frames of one point each are one frame of sixteen points, but for the smooth edges.
+#[test]
+fn gathered_frames_are_the_mean_of_their_points() {
+    let (scene, settings) = soft();
+    let mut stage = Stage::new();
+    stage.set_scene(&scene);
+    let over_time = gathered(&mut stage, &scene, &sampled(&settings, 1), 16);
+    let at_once = stage.shoot(&sampled(&settings, 16), &scene).image;
+    let alone = stage.shoot(&sampled(&settings, 1), &scene).image;
+    let far = |a: &RgbaImage, b: &RgbaImage| {
+        a.pixels().zip(b.pixels()).filter(|(a, b)| a.0[0].abs_diff(b.0[0]) > 24).count() as f64 / f64::from(SIZE[0] * SIZE[1])
+    };
+    let (same, other) = (far(&over_time, &at_once), far(&over_time, &alone));
+    assert!(same < 0.03 && other > 2.0 * same, "{same} of the pixels differ, {other} from hard shadows");
+    assert!(levels(&over_time) > levels(&alone), "penumbra and edges have more steps");
+
+    assert_eq!(gathered(&mut stage, &scene, &sampled(&settings, 1), 16), over_time, "the same arguments, the same pixels");
+    assert_eq!(gathered(&mut stage, &scene, &settings, 1), stage.shoot(&settings, &scene).image, "one frame is a frame");
+}
+
+/// A frame that is drawn again leaves the same mean: pictures are saved so.
+#[test]
+fn the_last_gathered_frame_can_be_drawn_again() {
+    let (scene, mut settings) = soft();
+    settings.lighting = Lighting { area_samples: 1, accumulate: 5, ..settings.lighting };
+    let mut stage = Stage::new();
+    stage.set_scene(&scene);
+    for frame in 0..5 {
+        let (pose, plan) = stage_frame(&settings, &scene, stage.context.capabilities(), frame).unwrap();
+        assert_eq!(plan.gather, Some(Gather { frame, frames: 5 }));
+        let mut draw = || readback::picture(&stage.context, &mut stage.renderer, &plan, &scene, &pose).unwrap().1;
+        assert!(draw() == draw(), "frame {frame}");
+    }
+}
+
+#[test]
+fn a_frame_joins_the_mean_after_the_scene_and_before_the_picture() {
+    let (scene, mut settings) = soft();
+    settings.lighting.accumulate = 4;
+    let capabilities = Capabilities::complete();
+    let (_, plan) = stage_frame(&settings, &scene, &capabilities, 2).unwrap();
+    let targets: Vec<_> = plan.draws().map(|(_, draw)| draw.target).collect();
+    let [rest @ .., Target::Mean, Target::Output] = &targets[..] else { panic!("{targets:?}") };
+    assert!(rest.iter().all(|target| *target == Target::Scene));
+    assert_ne!(plan.views[0].camera.shift, glam::DVec2::ZERO);
+
+    let mut never = plan.clone();
+    never.steps.retain(|step| !matches!(&step.action, Action::Draw(draw) if draw.program == Program::Gather));
+    assert!(validate(&never).unwrap_err().what.contains("joined the mean"));
+    let mut unasked = plan.clone();
+    unasked.gather = None;
+    assert!(validate(&unasked).unwrap_err().what.contains("does not gather"));
+    let mut twice = plan;
+    twice.steps.insert(twice.steps.len() - 1, twice.steps[twice.steps.len() - 2].clone());
+    assert!(validate(&twice).unwrap_err().what.contains("once"));
+
+    let (_, exact) = stage(&Settings { show: Show::Shadow, ..settings }, &scene, &capabilities).unwrap();
+    assert_eq!(exact.gather, None, "exact values have no mean");
+}
+
+/// What M section 8 warns of: in 8 bits gradients have fewer steps, and many dim lights are lost altogether
+/// where floats add up to what one light of their sum gives.
+#[test]
+fn eight_bits_band_and_lose_dim_lights() {
+    let (scene, settings) = soft();
+    let hard = LightEdit { radius: Some(0.0), intensity: Some(30.0), ..LightEdit::default() };
+    let settings = Settings { lights: [(0, hard)].into(), ..settings };
+    let in_bits = |settings: &Settings| Settings {
+        lighting: Lighting { accumulation: Accumulation::EightBit, ..settings.lighting },
+        ..settings.clone()
+    };
+    let mut stage = Stage::new();
+    stage.set_scene(&scene);
+    let float = stage.shoot(&settings, &scene).image;
+    let bits = stage.shoot(&in_bits(&settings), &scene).image;
+    assert!(levels(&bits) * 3 < levels(&float) * 2, "{} levels instead of {}", levels(&bits), levels(&float));
+    assert!(largest_difference(&float, &bits) < 30, "the same picture nonetheless");
+
+    // 60 lights of a sixtieth: each less than half a 255th where it falls.
+    let (mut many, mut settings) = soft();
+    many.lights = vec![many.lights[0].clone(); 60];
+    let dim = LightEdit { radius: Some(0.0), intensity: Some(0.1), shadows: Some(false), ..LightEdit::default() };
+    settings.lights = (0..60).map(|light| (light, dim.clone())).collect();
+    stage.set_scene(&many);
+    let float = stage.shoot(&settings, &many).image;
+    let bits = stage.shoot(&in_bits(&settings), &many).image;
+    let brightest = |image: &RgbaImage| image.pixels().map(|pixel| pixel.0[0]).max().unwrap();
+    assert!(brightest(&float) > 20 && brightest(&bits) == 0, "{} and {}", brightest(&float), brightest(&bits));
 }

@@ -101,6 +101,7 @@ fn shared_structs_have_the_same_layout() {
             background_top,
             pixel,
             background_bottom,
+            scale,
             size
         ]
     );

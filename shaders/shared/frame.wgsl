@@ -10,7 +10,7 @@ struct Frame {
     background_top: vec3f,      // linear
     pixel: f32,                 // metres, one metre before the eye
     background_bottom: vec3f,   // linear
-    _pad1: f32,
+    scale: f32,                 // times all light that surfaces give; `exposure` is then less by it
     size: vec2f,                // pixels
     _pad2: vec2f,
 }

@@ -68,7 +68,7 @@ fn seen_normal(point: SurfacePoint, front: bool) -> vec3f {
 // `up` is the height of the unit normal: 1 looks up, -1 down.
 fn ambient_light(base: vec3f, up: f32) -> vec3f {
     let ambient = mix(frame.ambient_ground, frame.ambient_sky, up * 0.5 + 0.5);
-    return select(base * ambient, base, material.unlit > 0.5) + material.emissive;
+    return (select(base * ambient, base, material.unlit > 0.5) + material.emissive) * frame.scale;
 }
 
 const PI: f32 = 3.14159265;

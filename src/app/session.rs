@@ -48,6 +48,8 @@ pub(super) struct Session {
     pub drawn: Option<Drawn>,
     /// What the last picture was drawn from, or tried to be.
     pub drawn_from: Option<Settings>,
+    /// The next of the frames that are gathered while nothing changes; none where all are there.
+    pub next_frame: Option<u32>,
     notices: Vec<Notice>,
     /// When good news go by themselves.
     passing: Vec<(Topic, Instant)>,
@@ -71,6 +73,7 @@ impl Session {
             loaded: None,
             drawn: None,
             drawn_from: None,
+            next_frame: None,
             notices: Vec::new(),
             passing: Vec::new(),
             opening: None,
@@ -212,7 +215,30 @@ impl Session {
 
     /// Whether the picture has to be drawn again.
     pub fn is_stale(&self) -> bool {
-        self.loaded.is_some() && self.drawn_from.as_ref() != Some(&self.settings)
+        self.loaded.is_some() && (self.drawn_from.as_ref() != Some(&self.settings) || self.next_frame.is_some())
+    }
+
+    /// Which of the gathered frames is to be drawn: the next one, or the last one again where all are
+    /// there; the first where anything has changed.
+    pub fn frame(&self) -> u32 {
+        match &self.drawn {
+            Some(drawn) if self.drawn_from.as_ref() == Some(&self.settings) => {
+                self.next_frame.or(drawn.plan.gather.map(|gather| gather.frame)).unwrap_or(0)
+            }
+            _ => 0,
+        }
+    }
+
+    /// The settings that draw just what is shown, so many frames gathered.
+    fn as_shown(&self) -> Settings {
+        let mut settings = self.settings.clone();
+        let gathered = |drawn: &Drawn| drawn.plan.gather.map(|gather| gather.frame + 1);
+        if self.drawn_from.as_ref() == Some(&self.settings)
+            && let Some(frames) = self.drawn.as_ref().and_then(gathered)
+        {
+            settings.lighting.accumulate = frames;
+        }
+        settings
     }
 
     /// The command that draws this picture without a window.
@@ -222,7 +248,7 @@ impl Session {
 
     /// Saves a picture and says where, or why not.
     pub fn save(&mut self, image: &image::RgbaImage) {
-        match photo::save(image, &self.settings, &self.command()) {
+        match photo::save(image, &self.settings, &render_command(&self.as_shown())) {
             Ok(path) => self.notice(Topic::Picture, Tone::Good, format!("Saved {}", path.display())),
             Err(error) => self.notice(Topic::Picture, Tone::Error, format!("The picture is not saved: {error}")),
         }

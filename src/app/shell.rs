@@ -21,7 +21,8 @@ use super::session::{Drawn, Session};
 use super::surface::{AFTER_TIMEOUT, After, Before, SurfaceState};
 use super::ui::{Action, FrameNumbers, Outcome, Tone, Topic, style};
 use super::{AppError, Wake, WindowOptions, store};
-use crate::director::stage;
+use crate::director::stage_frame;
+use crate::frame::Gather;
 use crate::settings::SceneChoice;
 
 /// How often shaders in a folder are looked at.
@@ -251,7 +252,11 @@ impl Shell {
         if self.options.frames.is_some_and(|frames| self.pictures >= frames) {
             event_loop.exit();
         }
-        if self.session.preferences.continuous || self.options.frames.is_some() || self.session.moves() {
+        if self.session.preferences.continuous
+            || self.options.frames.is_some()
+            || self.session.moves()
+            || self.session.next_frame.is_some()
+        {
             self.pace.want(now);
         }
         self.update_title();
@@ -268,8 +273,11 @@ impl Shell {
         let Some(screen) = self.live.as_mut().and_then(|live| live.screen.as_mut()) else { return };
         let Some(loaded) = &session.loaded else { return };
         let begun = Instant::now();
-        let staged = stage(&session.settings, &loaded.scene, screen.context.capabilities()).map_err(|error| error.to_string());
+        let frame = session.frame();
+        let staged = stage_frame(&session.settings, &loaded.scene, screen.context.capabilities(), frame)
+            .map_err(|error| error.to_string());
         session.drawn_from = Some(session.settings.clone());
+        session.next_frame = None;
         let result = staged.and_then(|(pose, plan)| {
             let staging = begun.elapsed().as_secs_f64() * 1e3;
             let stats = screen.draw(&plan, &loaded.scene, &pose).map_err(|error| error.to_string())?;
@@ -277,6 +285,7 @@ impl Shell {
         });
         match result {
             Ok((pose, plan, stats, staging)) => {
+                session.next_frame = plan.gather.and_then(Gather::next);
                 session.drawn = Some(Drawn { pose, plan });
                 session.dismiss(Topic::Frame);
                 if self.pictures == 0 {
@@ -372,7 +381,10 @@ impl Shell {
     fn photograph(&mut self) {
         let Some(screen) = self.live.as_mut().and_then(|live| live.screen.as_mut()) else { return };
         let Some(loaded) = &self.session.loaded else { return };
-        let staged = stage(&self.session.settings, &loaded.scene, screen.context.capabilities());
+        // The frame on show, drawn again: the mean stays what it is.
+        let shown = self.session.drawn.as_ref().filter(|_| self.session.drawn_from.as_ref() == Some(&self.session.settings));
+        let frame = shown.and_then(|drawn| drawn.plan.gather).map_or(0, |gather| gather.frame);
+        let staged = stage_frame(&self.session.settings, &loaded.scene, screen.context.capabilities(), frame);
         let image = staged
             .map_err(|error| error.to_string())
             .and_then(|(pose, plan)| screen.photograph(&plan, &loaded.scene, &pose).map_err(|error| error.to_string()));

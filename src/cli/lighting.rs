@@ -17,9 +17,9 @@ pub(super) struct LightingArguments {
     #[arg(long, value_name = "J")]
     light_sample: Option<u32>,
     /// The mean of so many frames, each with other points of the lights with a size [default: 1]
-    #[arg(long, hide = true, value_name = "N")]
+    #[arg(long, value_name = "N")]
     accumulate: Option<u32>,
-    #[arg(long, hide = true, value_name = "A", help = format!("What lights are added into: {}", names(Accumulation::ALL.map(Accumulation::name))))]
+    #[arg(long, value_name = "A", help = format!("What lights are added into: {}", names(Accumulation::ALL.map(Accumulation::name))))]
     accumulation: Option<String>,
     #[arg(long, hide = true, value_name = "T", help = format!("How often surfaces are textured: {}", names(Texturing::ALL.map(Texturing::name))))]
     texturing: Option<String>,

@@ -1,6 +1,6 @@
 //! The eye: where it is, what it sees, and the one projection everything shares.
 
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec2, DVec3};
 use thiserror::Error;
 
 use crate::scene::{Pose, Scene};
@@ -23,6 +23,9 @@ pub struct Camera {
     pub near: f64,
     /// How far along `forward` the point of interest lies, metres: what an orbit turns about.
     pub focus_distance: f64,
+    /// How far the picture lies beside where it would, in halves of it, to the right and up: a part of a
+    /// pixel, where several frames are gathered into one picture.
+    pub shift: DVec2,
 }
 
 /// Why there is no such camera.
@@ -88,7 +91,7 @@ impl Camera {
         let forward = (target - eye).try_normalize().ok_or(CameraError::Degenerate("eye and target are the same point"))?;
         let right = forward.cross(DVec3::Y).try_normalize().unwrap_or_else(|| forward.cross(DVec3::NEG_Z).normalize());
         let up = right.cross(forward);
-        Ok(Self { eye, forward, up, vertical_fov, aspect, near, focus_distance: eye.distance(target) })
+        Ok(Self { eye, forward, up, vertical_fov, aspect, near, focus_distance: eye.distance(target), shift: DVec2::ZERO })
     }
 
     fn of_scene(scene: &Scene, pose: &Pose, index: usize, aspect: f64) -> Self {
@@ -100,6 +103,7 @@ impl Camera {
             aspect,
             near: DEFAULT_NEAR,
             focus_distance: 8.0,
+            shift: DVec2::ZERO,
         };
         let Some(camera) = scene.cameras.get(index) else { return fallback };
         let Some(world_from_node) = pose.world_from_node.get(camera.node) else { return fallback };
@@ -115,6 +119,7 @@ impl Camera {
             aspect,
             near: camera.near,
             focus_distance: camera.focus_distance,
+            shift: DVec2::ZERO,
         }
     }
 
@@ -133,7 +138,12 @@ impl Camera {
     /// Reverse-Z with infinite far: near maps to depth 1, infinity to 0 (DESIGN section 3).
     #[must_use]
     pub fn clip_from_view(&self) -> DMat4 {
-        glam::dcamera::rh::proj::directx::perspective_infinite_reverse(self.vertical_fov, self.aspect, self.near)
+        let mut clip_from_view =
+            glam::dcamera::rh::proj::directx::perspective_infinite_reverse(self.vertical_fov, self.aspect, self.near);
+        // Times w, which is -z.
+        clip_from_view.z_axis.x -= self.shift.x;
+        clip_from_view.z_axis.y -= self.shift.y;
+        clip_from_view
     }
 
     /// The near rectangle's corners in world space, around.
@@ -141,7 +151,7 @@ impl Camera {
     pub fn near_rectangle(&self) -> [DVec3; 4] {
         let half_height = (self.vertical_fov / 2.0).tan() * self.near;
         let (up, right) = (self.up * half_height, self.forward.cross(self.up) * (half_height * self.aspect));
-        let center = self.eye + self.forward * self.near;
+        let center = self.eye + self.forward * self.near - right * self.shift.x - up * self.shift.y;
         [center - right - up, center + right - up, center + right + up, center - right + up]
     }
 

@@ -14,5 +14,5 @@ pub mod validate;
 
 pub use camera::{Camera, CameraError};
 pub use capabilities::{Capabilities, Lack};
-pub use plan::{Cutout, CutoutShape, FramePlan, Method, Reason, View, VolumePlan};
+pub use plan::{Cutout, CutoutShape, FramePlan, Gather, Method, Reason, View, VolumePlan};
 pub use step::{Action, Clear, Draw, DrawSet, LightShape, Look, Part, Program, Step, Surface, Target, VolumePart};

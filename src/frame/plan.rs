@@ -8,6 +8,7 @@ use super::state::Winding;
 use super::stencil::BitBudget;
 use super::step::{Action, Draw, Step};
 use crate::geometry::cutout::{CutoutPlane, Throw};
+use crate::settings::Accumulation;
 
 /// Everything that one frame does, in order: ids and values only.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -28,11 +29,32 @@ pub struct FramePlan {
     pub volumes: Vec<VolumePlan>,
     /// What is done, in order.
     pub steps: Vec<Step>,
+    /// What lights are added into.
+    pub accumulation: Accumulation,
+    /// Which of the frames whose mean is shown this is; none where a frame stands for itself.
+    pub gather: Option<Gather>,
     /// For every light of the pose, the light of the scene that it is, or is a point of
     /// ([`crate::scene::area`]).
     pub points: Vec<usize>,
     /// What a user should know about this frame: replacements, limits.
     pub notes: Vec<String>,
+}
+
+/// One of several frames whose mean is shown. Drawn again, it leaves the same mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Gather {
+    /// Which, from 0: the mean is that of this one and all before it.
+    pub frame: u32,
+    /// How many there will be.
+    pub frames: u32,
+}
+
+impl Gather {
+    /// The frame after this one, until all are there.
+    #[must_use]
+    pub fn next(self) -> Option<u32> {
+        (self.frame + 1 < self.frames).then_some(self.frame + 1)
+    }
 }
 
 /// One eye.

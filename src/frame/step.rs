@@ -106,7 +106,9 @@ impl From<&PosedLight> for LightShape {
 pub enum Target {
     /// The linear accumulation target, with depth and stencil.
     Scene,
-    /// The picture itself; the scene's targets are read.
+    /// The mean of the frames gathered so far, in 32-bit floats; the scene's targets are read.
+    Mean,
+    /// The picture itself; the scene's targets are read, or the mean in their place.
     Output,
 }
 
@@ -130,6 +132,8 @@ pub enum Program {
     Transparent,
     /// Triangle edges.
     Wireframe,
+    /// Full screen: the scene joins the mean of the frames before it.
+    Gather,
     /// Full screen: the stencil in false colour.
     StencilColors,
     /// Full screen: the gradient behind everything, exposure and tone curve.

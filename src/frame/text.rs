@@ -6,11 +6,18 @@ use std::fmt::{Display, Formatter, Result};
 use super::plan::FramePlan;
 use super::state::DepthBias;
 use super::step::{Action, Draw, DrawSet, Part};
+use crate::settings::Accumulation;
 
 impl Display for FramePlan {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let [width, height] = self.size;
         writeln!(f, "{width} x {height}, {} sample{}", self.samples, if self.samples == 1 { "" } else { "s" })?;
+        if let Some(gather) = self.gather {
+            writeln!(f, "frame {} of {}", gather.frame + 1, gather.frames)?;
+        }
+        if self.accumulation != Accumulation::default() {
+            writeln!(f, "lights are added into {}", self.accumulation.name())?;
+        }
         writeln!(f, "stencil: count {:08b}", self.budget.count_mask)?;
         for view in &self.views {
             writeln!(f, "view {}: front {:?}", view.name, view.winding)?;

@@ -32,7 +32,7 @@ pub fn validate(plan: &FramePlan) -> Result<(), Fault> {
         }
         match &step.action {
             Action::Clear(clear) => {
-                if state.output_begun {
+                if state.output_begun || state.gathered {
                     return Err(fault("it clears the scene's targets after the picture has begun"));
                 }
                 state.color_set |= clear.color.is_some();
@@ -61,6 +61,7 @@ struct Progress {
     depth_set: bool,
     stencil_set: bool,
     counting: bool,
+    gathered: bool,
     output_begun: bool,
 }
 
@@ -71,8 +72,16 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
         return Err("its scissor is empty or leaves the picture");
     }
     match draw.target {
-        Target::Output => {
-            state.output_begun = true;
+        Target::Mean | Target::Output => {
+            match (draw.target, plan.gather) {
+                (Target::Mean, _) if state.gathered || state.output_begun => {
+                    return Err("a frame joins the mean once, before the picture");
+                }
+                (Target::Mean, None) => return Err("it joins a mean that the plan does not gather"),
+                (Target::Mean, Some(_)) => state.gathered = true,
+                (_, Some(_)) if !state.gathered => return Err("the picture has begun before the frame joined the mean"),
+                _ => state.output_begun = true,
+            }
             if draw.state.stencil.tests() || draw.state.stencil.writes() {
                 return Err("the picture itself has no stencil");
             }
@@ -81,6 +90,7 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
             }
             return Ok(());
         }
+        Target::Scene if state.gathered => return Err("it draws the scene after the frame joined the mean"),
         Target::Scene if state.output_begun => return Err("it draws the scene after the picture has begun"),
         Target::Scene => {}
     }

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use thiserror::Error;
 
 use crate::frame::Capabilities;
+use crate::settings::Accumulation;
 
 /// What goes wrong between this program and the device: one line each.
 #[derive(Debug, Error)]
@@ -59,6 +60,16 @@ struct Watch {
 
 /// Linear colour of the scene, wide enough that many lights do not band.
 pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Linear colour of the scene, as wide as the accumulation asks for.
+#[must_use]
+pub const fn color_format(accumulation: Accumulation) -> wgpu::TextureFormat {
+    match accumulation {
+        Accumulation::Float => COLOR_FORMAT,
+        Accumulation::EightBit => wgpu::TextureFormat::Rgba8Unorm,
+    }
+}
+/// The mean of many frames: one of a thousand must not be lost in it.
+pub const MEAN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 /// Depth and stencil of the scene (DESIGN section 3).
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth24PlusStencil8;
 

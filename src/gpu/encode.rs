@@ -4,7 +4,7 @@ use super::context::Context;
 use super::frame_buffers::{DRAW_STRIDE, FrameBuffers};
 use super::pipelines::{Key, Pipelines};
 use super::scene_buffers::SceneBuffers;
-use super::targets::Targets;
+use super::targets::{Mean, Targets};
 use super::timing::Timing;
 use crate::frame::{Action, Clear, Draw, DrawSet, FramePlan, Part, Surface, Target, VolumePart};
 use crate::geometry::volume::VolumeIndices;
@@ -58,7 +58,7 @@ pub fn encode(encode: Encode<'_>, plan: &FramePlan, scene: &Scene, encoder: &mut
     let mut drawn = Drawn::default();
     for (index, pass) in passes.iter().enumerate() {
         let timestamps = encode.timing.writes(index == 0, index + 1 == passes.len());
-        let mut recorder = encode.begin(encoder, pass, Some(index) == last_scene, timestamps);
+        let mut recorder = encode.begin(encoder, plan, pass, Some(index) == last_scene, timestamps);
         recorder.set_bind_group_checked(0, encode.frame.bind_group(), 0);
         for &(number, draw) in &pass.draws {
             encode.record(&mut recorder, plan, scene, draw, number, &mut drawn);
@@ -96,8 +96,8 @@ fn passes(plan: &FramePlan) -> Vec<Pass<'_>> {
                 });
             }
             Action::Draw(draw) => {
-                // The picture's own pass clears nothing of the scene's.
-                if let Some(clear) = pending.take_if(|_| draw.target == Target::Output) {
+                // The mean's and the picture's own passes clear nothing of the scene's.
+                if let Some(clear) = pending.take_if(|_| draw.target != Target::Scene) {
                     passes.push(Pass { target: Target::Scene, clear, draws: Vec::new() });
                 }
                 let joins = pending.is_none() && passes.last().is_some_and(|pass| pass.target == draw.target);
@@ -127,12 +127,20 @@ impl Encode<'_> {
             target: draw.target,
             output: self.format,
             samples: plan.samples,
+            accumulation: plan.accumulation,
         }
+    }
+
+    /// The mean that this frame leaves.
+    fn mean(&self, plan: &FramePlan) -> Option<&Mean> {
+        let gather = plan.gather?;
+        self.targets.means.as_ref().map(|means| &means[gather.frame as usize % 2])
     }
 
     fn begin<'e>(
         &self,
         encoder: &'e mut wgpu::CommandEncoder,
+        plan: &FramePlan,
         pass: &Pass<'_>,
         resolve: bool,
         timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
@@ -159,10 +167,10 @@ impl Encode<'_> {
                     ..Default::default()
                 })
             }
-            Target::Output => encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("picture"),
+            Target::Mean | Target::Output => encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some(if pass.target == Target::Mean { "mean" } else { "picture" }),
                 color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: self.output,
+                    view: self.mean(plan).filter(|_| pass.target == Target::Mean).map_or(self.output, |mean| &mean.view),
                     depth_slice: None,
                     resolve_target: None,
                     ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store },
@@ -190,8 +198,14 @@ impl Encode<'_> {
         pass.set_scissor_rect(x, y, width, height);
         match &draw.set {
             DrawSet::FullScreen => {
-                if draw.target == Target::Output {
-                    pass.set_bind_group(1, &self.targets.read, &[]);
+                let read = match (draw.target, self.mean(plan)) {
+                    (Target::Scene, _) => None,
+                    (_, None) => Some(&self.targets.read),
+                    (Target::Mean, Some(mean)) => Some(&mean.gather),
+                    (Target::Output, Some(mean)) => Some(&mean.read),
+                };
+                if let Some(read) = read {
+                    pass.set_bind_group(1, read, &[]);
                 }
                 pass.draw(0..3, 0..1);
                 drawn.draws += 1;

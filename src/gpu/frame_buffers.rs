@@ -13,6 +13,7 @@ use crate::geometry::ending::NEVER_ENDS;
 use crate::geometry::light_in_object;
 use crate::geometry::volume::{Caster, VolumeIndices, VolumeParts, VolumeScratch};
 use crate::scene::{LightKind, Pose, PosedLight, Scene};
+use crate::settings::Accumulation;
 
 /// Uniforms are read at offsets of this many bytes: WebGPU's default alignment.
 pub const DRAW_STRIDE: u64 = 256;
@@ -145,7 +146,7 @@ impl FrameBuffers {
         let scratch = &mut self.scratch;
         scratch.lights.clear();
         // Lights that are off have no intensity, so that indices stay the scene's.
-        scratch.lights.extend(pose.lights.iter().map(|posed| light(posed, &self.slides)));
+        scratch.lights.extend(pose.lights.iter().map(|posed| light(posed, scale(plan), &self.slides)));
         scratch.draws.clear();
         for (_, draw) in plan.draws() {
             let light = draw.light.and_then(|light| scratch.lights.get(light)).copied().unwrap_or_default();
@@ -287,7 +288,8 @@ fn frame(plan: &FramePlan, scene: &Scene, pose: &Pose) -> Frame {
     let size = plan.size.map(|side| side as f32);
     Frame {
         eye: plan.views[0].camera.eye.as_vec3().to_array(),
-        exposure: plan.exposure,
+        exposure: plan.exposure / scale(plan),
+        scale: scale(plan),
         ambient_sky: scene.environment.ambient_sky.to_array(),
         smooth_terminator: f32::from(u8::from(plan.smooth_terminator)),
         ambient_ground: scene.environment.ambient_ground.to_array(),
@@ -301,7 +303,16 @@ fn frame(plan: &FramePlan, scene: &Scene, pose: &Pose) -> Frame {
     }
 }
 
-fn light(light: &PosedLight, slides: &Slides) -> Light {
+/// What light is multiplied with before it is added. In 8 bits the picture's own range is all there is, as it
+/// was all there was; floats are exposed at the end.
+fn scale(plan: &FramePlan) -> f32 {
+    match plan.accumulation {
+        Accumulation::Float => 1.0,
+        Accumulation::EightBit => plan.exposure,
+    }
+}
+
+fn light(light: &PosedLight, scale: f32, slides: &Slides) -> Light {
     let (kind, inner, outer) = match light.kind {
         LightKind::Point => (0, 0.0, 0.0),
         LightKind::Directional => (1, 0.0, 0.0),
@@ -315,7 +326,7 @@ fn light(light: &PosedLight, slides: &Slides) -> Light {
         inverse_range_squared,
         direction: light.direction.as_vec3().to_array(),
         cos_outer: outer.cos(),
-        intensity: if light.on { light.intensity } else { Vec3::ZERO }.to_array(),
+        intensity: if light.on { light.intensity * scale } else { Vec3::ZERO }.to_array(),
         inverse_cone_width: 1.0 / (inner.cos() - outer.cos()).max(1e-4),
         kind,
         right: light.right.as_vec3().to_array(),

@@ -121,10 +121,10 @@ impl Renderer {
             return Err(GpuError::Device("it was lost".into()));
         }
         let begun = Instant::now();
-        let fits = |targets: &Targets| targets.size == plan.size && targets.samples == plan.samples;
-        if !self.targets.as_ref().is_some_and(fits) {
+        let shape = targets::Shape::of(plan);
+        if self.targets.as_ref().is_none_or(|targets| targets.shape != shape) {
             self.targets = None;
-            self.targets = Some(Targets::new(context, &self.pipelines.targets_layout, plan.size, plan.samples)?);
+            self.targets = Some(Targets::new(context, &self.pipelines.targets_layout, shape)?);
         }
         let (Some(targets), Some(buffers)) = (&self.targets, &mut self.scene) else {
             return Err(GpuError::Device("no scene was set".into()));

@@ -2,12 +2,13 @@
 
 use std::collections::HashMap;
 
-use super::context::{COLOR_FORMAT, Context, DEPTH_FORMAT, GpuError};
+use super::context::{Context, DEPTH_FORMAT, GpuError, MEAN_FORMAT, color_format};
 use super::shaders::{Library, Override, Vertices, entry_of};
 use super::types::{Attributes, Draw, Frame, Light, Material, Object, Volume};
 use crate::frame::state::{Blend, Compare, Cull, DepthBias, NearPlane, State, Winding};
 use crate::frame::stencil::{StencilFace, StencilOp};
 use crate::frame::{LightShape, Look, Program, Target};
+use crate::settings::Accumulation;
 
 /// Everything a pipeline depends on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -24,6 +25,8 @@ pub struct Key {
     pub output: wgpu::TextureFormat,
     /// Of the scene's targets.
     pub samples: u32,
+    /// What lights are added into, for [`Target::Scene`].
+    pub accumulation: Accumulation,
 }
 
 /// Bind group layouts, shader modules and the pipelines made so far.
@@ -32,7 +35,7 @@ pub struct Pipelines {
     pub frame_layout: wgpu::BindGroupLayout,
     /// Group 1 of surfaces: material, texture, sampler.
     pub material_layout: wgpu::BindGroupLayout,
-    /// Group 1 of the picture's programs: scene colour, stencil.
+    /// Group 1 of the full-screen programs: scene colour or a mean in its place, stencil, the mean before.
     pub targets_layout: wgpu::BindGroupLayout,
     bare: wgpu::PipelineLayout,
     surface: wgpu::PipelineLayout,
@@ -119,7 +122,11 @@ impl Pipelines {
         );
         let targets_layout = layout(
             "scene targets",
-            &[sampled(0, wgpu::TextureSampleType::Float { filterable: false }), sampled(1, wgpu::TextureSampleType::Uint)],
+            &[
+                sampled(0, wgpu::TextureSampleType::Float { filterable: false }),
+                sampled(1, wgpu::TextureSampleType::Uint),
+                sampled(2, wgpu::TextureSampleType::Float { filterable: false }),
+            ],
         );
         let pipeline_layout = |label, groups: &[&wgpu::BindGroupLayout]| {
             let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
@@ -192,10 +199,14 @@ impl Pipelines {
         let module = &self.modules[entry.file];
         let layout = match (entry.vertices, key.target) {
             (Vertices::Surface, _) => &self.surface,
-            (_, Target::Output) => &self.picture,
+            (_, Target::Mean | Target::Output) => &self.picture,
             _ => &self.bare,
         };
-        let format = if key.target == Target::Output { key.output } else { COLOR_FORMAT };
+        let format = match key.target {
+            Target::Scene => color_format(key.accumulation),
+            Target::Mean => MEAN_FORMAT,
+            Target::Output => key.output,
+        };
         let targets = [Some(wgpu::ColorTargetState {
             format,
             blend: key.state.color.and_then(blend),

@@ -48,10 +48,10 @@ pub fn picture(
 /// No frame yet, several samples, or a device that does not answer.
 pub fn stencil(context: &Context, renderer: &Renderer) -> Result<Vec<u8>, GpuError> {
     let targets = renderer.targets().ok_or_else(|| GpuError::Device("nothing was drawn yet".into()))?;
-    if targets.samples != 1 {
+    if targets.shape.samples != 1 {
         return Err(GpuError::Device("the stencil of several samples cannot be read".into()));
     }
-    read(context, &targets.depth_stencil_texture, wgpu::TextureAspect::StencilOnly, 1, targets.size)
+    read(context, &targets.depth_stencil_texture, wgpu::TextureAspect::StencilOnly, 1, targets.shape.size)
 }
 
 fn read(

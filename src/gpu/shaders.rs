@@ -85,7 +85,7 @@ const SURFACE: &[Override] = &[Override::Textured, Override::Glossy, Override::B
 const LIT: &[Override] = &[Override::Textured, Override::Glossy, Override::BothSides, Override::LightKind];
 
 /// Every program, in the order of the enum.
-pub const PROGRAMS: [Entry; 11] = [
+pub const PROGRAMS: [Entry; 12] = [
     entry(Program::Ambient, "ambient.wgsl", "surface_vertex", "ambient", Vertices::Surface, SURFACE),
     entry(Program::AmbientMasked, "ambient.wgsl", "surface_vertex", "ambient_masked", Vertices::Surface, SURFACE),
     entry(Program::Lit, "lit.wgsl", "surface_vertex", "lit", Vertices::Surface, LIT),
@@ -94,6 +94,7 @@ pub const PROGRAMS: [Entry; 11] = [
     entry(Program::Verdict, "verdict.wgsl", "surface_vertex", "verdict", Vertices::Surface, SURFACE),
     entry(Program::Transparent, "transparent.wgsl", "surface_vertex", "transparent", Vertices::Surface, SURFACE),
     entry(Program::Wireframe, "wireframe.wgsl", "wireframe_vertex", "wireframe", Vertices::Edges, &[]),
+    entry(Program::Gather, "output.wgsl", "full_screen_vertex", "gather", Vertices::None, &[]),
     entry(Program::StencilColors, "output.wgsl", "full_screen_vertex", "stencil_colors", Vertices::None, &[]),
     entry(Program::ToneMap, "output.wgsl", "full_screen_vertex", "tone_map", Vertices::None, &[]),
     entry(Program::Copy, "output.wgsl", "full_screen_vertex", "copy", Vertices::None, &[]),

@@ -1,13 +1,46 @@
 //! What the scene is drawn into: made in one place, for a size and sample count.
 
-use super::context::{COLOR_FORMAT, Context, DEPTH_FORMAT, GpuError};
+use super::context::{Context, DEPTH_FORMAT, GpuError, MEAN_FORMAT, color_format};
+use crate::frame::FramePlan;
+use crate::settings::Accumulation;
 
-/// The scene's attachments and the bind group that the picture's programs read them by.
-pub struct Targets {
+/// What targets are made for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shape {
     /// Pixels.
     pub size: [u32; 2],
     /// Per pixel.
     pub samples: u32,
+    /// What lights are added into.
+    pub accumulation: Accumulation,
+    /// A mean of frames is kept.
+    pub gathers: bool,
+}
+
+impl Shape {
+    /// What a plan needs.
+    #[must_use]
+    pub fn of(plan: &FramePlan) -> Self {
+        let FramePlan { size, samples, accumulation, gather, .. } = *plan;
+        Self { size, samples, accumulation, gathers: gather.is_some() }
+    }
+}
+
+/// The mean of the frames gathered so far, in one of two textures: each frame reads the one that the frame
+/// before wrote, and so may be drawn again.
+pub struct Mean {
+    /// What is drawn to.
+    pub view: wgpu::TextureView,
+    /// What is read while it is drawn: the scene's, and the other mean.
+    pub gather: wgpu::BindGroup,
+    /// What the picture reads: this mean in place of the scene's colour.
+    pub read: wgpu::BindGroup,
+}
+
+/// The scene's attachments and the bind group that the picture's programs read them by.
+pub struct Targets {
+    /// What they were made for.
+    pub shape: Shape,
     /// What is drawn to.
     pub color: wgpu::TextureView,
     /// What `color` resolves to, where it has several samples.
@@ -18,6 +51,8 @@ pub struct Targets {
     pub depth_stencil_texture: wgpu::Texture,
     /// Resolved colour and (at one sample) the stencil.
     pub read: wgpu::BindGroup,
+    /// For frames of even and of odd number, where a mean is kept.
+    pub means: Option<[Mean; 2]>,
 }
 
 /// Bytes that targets may take; llvmpipe overcommits memory until it aborts.
@@ -28,9 +63,10 @@ impl Targets {
     ///
     /// # Errors
     /// More bytes than the budget, or the device refuses.
-    pub fn new(context: &Context, layout: &wgpu::BindGroupLayout, size: [u32; 2], samples: u32) -> Result<Self, GpuError> {
+    pub fn new(context: &Context, layout: &wgpu::BindGroupLayout, shape: Shape) -> Result<Self, GpuError> {
+        let Shape { size, samples, accumulation, gathers } = shape;
         let pixels = u64::from(size[0]) * u64::from(size[1]);
-        let bytes = pixels * (u64::from(samples) * (8 + 8) + 8);
+        let bytes = pixels * (u64::from(samples) * (8 + 8) + 8 + if gathers { 32 } else { 0 });
         if bytes > BUDGET {
             return Err(GpuError::TooLarge(format!(
                 "{} x {} pixels with {samples} samples need {} MiB of {} MiB",
@@ -43,8 +79,9 @@ impl Targets {
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let read = attachment | wgpu::TextureUsages::TEXTURE_BINDING;
         let one = samples == 1;
-        let color = texture(context, "scene colour", size, samples, COLOR_FORMAT, if one { read } else { attachment });
-        let resolved = (!one).then(|| texture(context, "scene colour, resolved", size, 1, COLOR_FORMAT, read));
+        let format = color_format(accumulation);
+        let color = texture(context, "scene colour", size, samples, format, if one { read } else { attachment });
+        let resolved = (!one).then(|| texture(context, "scene colour, resolved", size, 1, format, read));
         let depth_usage = if one { read | wgpu::TextureUsages::COPY_SRC } else { attachment };
         let depth_stencil_texture = texture(context, "scene depth and stencil", size, samples, DEPTH_FORMAT, depth_usage);
         let color = color.create_view(&Default::default());
@@ -58,18 +95,27 @@ impl Targets {
             .as_ref()
             .unwrap_or(&depth_stencil_texture)
             .create_view(&wgpu::TextureViewDescriptor { aspect: wgpu::TextureAspect::StencilOnly, ..Default::default() });
-        let read = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("scene targets"),
-            layout,
-            entries: &[
-                wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: wgpu::BindingResource::TextureView(resolved.as_ref().unwrap_or(&color)),
-                },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&stencil) },
-            ],
+        let drawn = resolved.as_ref().unwrap_or(&color);
+        // The colour that is read, and the mean before it.
+        let group = |color: &wgpu::TextureView, before: &wgpu::TextureView| {
+            let entry = |binding, view| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
+            context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("scene targets"),
+                layout,
+                entries: &[entry(0, color), entry(1, &stencil), entry(2, before)],
+            })
+        };
+        let means = gathers.then(|| {
+            let views = ["mean, even frames", "mean, odd frames"]
+                .map(|label| texture(context, label, size, 1, MEAN_FORMAT, read).create_view(&Default::default()));
+            [0, 1].map(|this| Mean {
+                view: views[this].clone(),
+                gather: group(drawn, &views[1 - this]),
+                read: group(&views[this], drawn),
+            })
         });
-        Ok(Self { size, samples, color, resolved, depth_stencil, depth_stencil_texture, read })
+        let read = group(drawn, drawn);
+        Ok(Self { shape, color, resolved, depth_stencil, depth_stencil_texture, read, means })
     }
 }
 

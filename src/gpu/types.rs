@@ -25,8 +25,8 @@ pub struct Frame {
     pub pixel: f32,
     /// Linear.
     pub background_bottom: [f32; 3],
-    #[doc(hidden)]
-    pub _pad1: f32,
+    /// Times all light that surfaces give; `exposure` is then less by it.
+    pub scale: f32,
     /// Pixels.
     pub size: [f32; 2],
     #[doc(hidden)]

@@ -31,6 +31,10 @@ pub struct Report {
     pub size: [u32; 2],
     /// Per pixel.
     pub samples: u32,
+    /// Frames whose mean the picture is.
+    pub frames: u32,
+    /// Points of lights that each frame counts: more than there are lights, where some have a size.
+    pub points: usize,
     /// Seconds into the animation.
     pub time: f64,
     /// The eye, world space.
@@ -94,6 +98,8 @@ pub struct Timings {
     pub open_ms: f64,
     /// Finding the device, compiling shaders, uploading the scene.
     pub upload_ms: f64,
+    /// The frames before the last one, where the picture is the mean of several.
+    pub gather_ms: f64,
     /// Posing and planning.
     pub plan_ms: f64,
     /// The first frame, with its read-back.
@@ -123,6 +129,8 @@ impl Report {
             light: settings.light,
             size: plan.size,
             samples: plan.samples,
+            frames: plan.gather.map_or(1, |gather| gather.frames),
+            points: plan.points.len(),
             time: settings.time,
             camera: plan.views.first().map(|view| view.camera),
             adapter: capabilities.adapter.clone(),

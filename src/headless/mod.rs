@@ -9,8 +9,10 @@ pub mod render;
 mod save;
 pub mod tour;
 
+use std::io::IsTerminal as _;
 use std::path::PathBuf;
 
+use indicatif::{ProgressBar, ProgressStyle};
 use thiserror::Error;
 
 use crate::cli::InputError;
@@ -66,4 +68,13 @@ pub fn check_exists(choice: &SceneChoice) -> Result<(), InputError> {
         }
         _ => Ok(()),
     }
+}
+
+/// On a terminal a bar; elsewhere, or for nothing to come, none.
+fn progress_bar(count: u64) -> ProgressBar {
+    if count == 0 || !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}").unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(count).with_style(style)
 }

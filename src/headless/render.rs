@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use super::HeadlessError;
 use super::json::{Report, Timings};
+use super::progress_bar;
 use super::save::{check_target, save_png};
 use crate::cli::{check, check_against, render_command};
 use crate::director;
@@ -12,8 +13,8 @@ use crate::gpu::{Context, Renderer, readback};
 use crate::scene::Scene;
 use crate::settings::Settings;
 
-/// Draws what `settings` say into the PNG file `out`. With `measured`, draws it twice, for the
-/// second frame's time: the first one's is mostly compilation.
+/// Draws what `settings` say into the PNG file `out`. With `measured`, draws the last frame twice, for the
+/// second one's time: the first one's is mostly compilation.
 ///
 /// # Errors
 /// Whatever stands in the way, before anything is written.
@@ -32,7 +33,17 @@ pub fn render(settings: &Settings, out: &Path, measured: bool) -> Result<Report,
     timings.upload_ms = lap(&mut clock);
     tracing::info!("uploaded it to {} in {:.1} ms", context.capabilities().adapter, timings.upload_ms);
 
-    let (pose, plan) = director::stage(settings, &scene, context.capabilities())?;
+    // All but the last of the frames whose mean the picture is.
+    let frames = director::frames(settings);
+    let bar = progress_bar(if frames > 1 { frames.into() } else { 0 });
+    for frame in 0..frames - 1 {
+        let (pose, plan) = director::stage_frame(settings, &scene, context.capabilities(), frame)?;
+        readback::picture(&context, &mut renderer, &plan, &scene, &pose)?;
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    timings.gather_ms = lap(&mut clock);
+    let (pose, plan) = director::stage_frame(settings, &scene, context.capabilities(), frames - 1)?;
     timings.plan_ms = lap(&mut clock);
     tracing::info!("planned {} steps, {} volumes in {:.1} ms", plan.steps.len(), plan.volumes.len(), timings.plan_ms);
 

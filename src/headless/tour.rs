@@ -1,13 +1,10 @@
 //! `obscura tour`: one picture of each stock scene by each technique, and of everything that can
 //! be shown for one of them: what a machine without a display gets to see first.
 
-use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 
-use indicatif::{ProgressBar, ProgressStyle};
-
-use super::HeadlessError;
 use super::save::save_png;
+use super::{HeadlessError, progress_bar};
 use crate::cli::render_command;
 use crate::director;
 use crate::gpu::{Context, Renderer, readback};
@@ -82,15 +79,6 @@ pub fn tour(out: &Path) -> Result<Vec<PathBuf>, HeadlessError> {
     }
     progress.finish_and_clear();
     Ok(files)
-}
-
-/// On a terminal a bar; elsewhere nothing, as logs want.
-fn progress_bar(count: u64) -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}").unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(count).with_style(style)
 }
 
 #[cfg(test)]

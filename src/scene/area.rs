@@ -69,8 +69,6 @@ pub struct Sampling {
     pub samples: u32,
     /// Which of the gathered frames this is, from 0.
     pub frame: u32,
-    /// How many there will be.
-    pub frames: u32,
 }
 
 impl Sampling {
@@ -99,8 +97,8 @@ impl Pose {
         for index in 0..self.lights.len() {
             let light = self.lights[index];
             let count = sampling.points(&light);
-            // A single point that nothing is gathered for stands in the middle.
-            if light.extent.is_point() || (count == 1 && sampling.frames <= 1) {
+            // A single point stands in the middle, until more are gathered.
+            if light.extent.is_point() || (count == 1 && sampling.frame == 0) {
                 continue;
             }
             let first = u64::from(sampling.frame) * u64::from(count);
@@ -127,7 +125,7 @@ mod tests {
     use super::*;
     use glam::Vec3;
 
-    const EIGHT: Sampling = Sampling { samples: 8, frame: 0, frames: 1 };
+    const EIGHT: Sampling = Sampling { samples: 8, frame: 0 };
 
     fn lamp(of: usize, kind: LightKind, extent: Extent) -> PosedLight {
         let center = DVec3::new(1.0, 2.0, 3.0);
@@ -202,12 +200,14 @@ mod tests {
     fn frames_go_on_where_the_last_one_ended() {
         let lamps = || vec![lamp(0, LightKind::Spot { inner: 0.0, outer: 0.4 }, Extent::Round(1.0))];
         let all = expanded(lamps(), EIGHT, 0, 0);
-        let by_frames: Vec<_> = (0..8)
-            .flat_map(|frame| expanded(lamps(), Sampling { samples: 1, frame, frames: 8 }, 0, 0))
+        let by_frames: Vec<_> = (0..4)
+            .flat_map(|frame| expanded(lamps(), Sampling { samples: 2, frame }, 0, 0))
             .map(|point| point.position)
             .collect();
         assert_eq!(by_frames, all.iter().map(|point| point.position).collect::<Vec<_>>());
-        let alone = expanded(lamps(), Sampling { samples: 1, frame: 0, frames: 1 }, 0, 0);
+        let alone = expanded(lamps(), Sampling { samples: 1, frame: 0 }, 0, 0);
         assert_eq!(alone[0].position, alone[0].center, "one point and no more is the middle");
+        let later = expanded(lamps(), Sampling { samples: 1, frame: 5 }, 0, 0);
+        assert_eq!(later[0].position, all[5].position);
     }
 }

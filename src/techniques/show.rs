@@ -3,7 +3,7 @@
 use crate::frame::plan::VolumePlan;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::StencilState;
-use crate::frame::{Action, Draw, DrawSet, Look, Method, Part, Program, Step, Target, VolumePart};
+use crate::frame::{Action, Draw, DrawSet, Gather, Look, Method, Part, Program, Step, Target, VolumePart};
 
 /// One light's volumes as coloured glass over the picture (M image 2).
 #[must_use]
@@ -102,6 +102,25 @@ pub fn tone_map(scissor: [u32; 4]) -> Step {
 #[must_use]
 pub fn copy(scissor: [u32; 4]) -> Step {
     full_screen("copy", "Values go to the picture as they are, for other programs to read.", Program::Copy, scissor)
+}
+
+/// The frame joins the mean of those before it.
+#[must_use]
+pub fn gather(gather: Gather, scissor: [u32; 4]) -> Step {
+    let mut step = full_screen(
+        &format!("gather frame {} of {}", gather.frame + 1, gather.frames),
+        "Joins the mean of the frames before it, in 32-bit floats: more points of every light with a size, and of every pixel.",
+        Program::Gather,
+        scissor,
+    );
+    if let Action::Draw(draw) = &mut step.action {
+        draw.target = Target::Mean;
+        // The weight that this frame has in the mean.
+        #[expect(clippy::cast_precision_loss, reason = "at most a thousand")]
+        let weight = 1.0 / (gather.frame + 1) as f32;
+        draw.constant = [weight, 0.0, 0.0, 0.0];
+    }
+    step
 }
 
 fn full_screen(label: &str, why: &str, program: Program, scissor: [u32; 4]) -> Step {

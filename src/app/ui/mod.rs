@@ -7,6 +7,7 @@
 
 mod camera;
 mod commands;
+mod gather;
 mod gizmo;
 mod help;
 mod lights;
@@ -211,6 +212,7 @@ impl Panel {
         style::section(ui, "Technique", true, |ui| technique::techniques(ui, desk));
         style::section(ui, "Show", true, |ui| technique::show(ui, desk, view));
         style::section(ui, "Lights", true, |ui| lights::lights(ui, self, desk, view));
+        style::section(ui, "Gathering", true, |ui| gather::gather(ui, desk, view));
         style::section(ui, "Camera", true, |ui| camera::camera(ui, desk, view));
         style::section(ui, "Time", true, |ui| time::time(ui, desk, view));
         style::section(ui, "How this frame is drawn", false, |ui| numbers::plan(ui, view));
