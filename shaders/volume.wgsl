@@ -15,6 +15,21 @@ fn volume_vertex(@location(0) vertex: vec4f, @builtin(instance_index) volume: u3
 fn volume_count() {
 }
 
+// The same of one face only, for stencil operations that cannot tell faces apart.
+@fragment
+fn volume_count_fronts(@builtin(front_facing) front: bool) {
+    if !front {
+        discard;
+    }
+}
+
+@fragment
+fn volume_count_backs(@builtin(front_facing) front: bool) {
+    if front {
+        discard;
+    }
+}
+
 // Volumes as coloured glass: premultiplied, one layer a face.
 @fragment
 fn volume_glass() -> @location(0) vec4f {

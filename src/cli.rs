@@ -281,6 +281,9 @@ struct PictureArguments {
     /// The full vertical angle of view, degrees [default: the camera's]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     fov: Option<f64>,
+    /// A far plane, metres, which cuts shadow volumes off and spoils counting [default: none]
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
+    far: Option<f64>,
     /// Seconds into the animation [default: 0]
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     time: Option<f64>,
@@ -344,6 +347,7 @@ impl PictureArguments {
         settings.size = self.size.unwrap_or(settings.size);
         settings.samples = self.samples.unwrap_or(settings.samples);
         settings.fov = self.fov.or(settings.fov);
+        settings.far = self.far.or(settings.far);
         settings.time = self.time.unwrap_or(settings.time);
         settings.animation = self.animation.or(settings.animation);
         settings.floor |= self.floor;

@@ -222,6 +222,9 @@ impl<'a> Frame<'a> {
         if exact_values && settings.samples != 1 {
             notes.push(format!("{} shows exact values: 1 sample a pixel", settings.show.name()));
         }
+        if let Some(far) = camera.far {
+            notes.push(format!("the far plane at {far} m cuts volumes off: what is counted from infinity goes wrong"));
+        }
         let plan = FramePlan {
             size: settings.size,
             samples,

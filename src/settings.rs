@@ -37,6 +37,9 @@ pub struct Settings {
     pub camera: CameraChoice,
     /// Full vertical angle, degrees, instead of the camera's own.
     pub fov: Option<f64>,
+    /// Metres: the distance of a far plane that cuts surfaces and volumes off; none by default. The
+    /// near plane is the nearest it may be.
+    pub far: Option<f64>,
     /// Seconds into the animation.
     pub time: f64,
     /// Which animations play.
@@ -68,6 +71,7 @@ impl Default for Settings {
             samples: 1,
             camera: CameraChoice::default(),
             fov: None,
+            far: None,
             time: 0.0,
             animation: None,
             smooth_terminator: true,
@@ -206,6 +210,12 @@ named! {
         ZFail = "z-fail",
         /// Sides only, counted from the eye's own count, exact at the near plane.
         ExactZPass = "exact-z-pass",
+        /// Z-fail in two passes, of one face each.
+        OneSided = "one-sided",
+        /// Z-fail with a volume for each polygon.
+        PerPolygon = "per-polygon",
+        /// Inverts one bit.
+        Parity = "parity",
         /// Kilgard's planar cut-outs: flat casters by their outline and one matrix.
         Cutout = "cutout",
         /// Kilgard's flattened silhouettes: every caster reduced to a cut-out for each light.

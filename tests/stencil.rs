@@ -13,7 +13,7 @@ use obscura::settings::{Settings, Show, Technique};
 use obscura::truth::World;
 
 const SIZE: [u32; 2] = [160, 90];
-const EXACT: [Technique; 2] = [Technique::ZFail, Technique::ExactZPass];
+const EXACT: [Technique; 4] = [Technique::ZFail, Technique::ExactZPass, Technique::OneSided, Technique::PerPolygon];
 
 /// A floor, and cubes of half side `half` at the places given.
 fn cubes_over_floor(places: &[(f64, f64, f64)], half: f64) -> Build {
@@ -66,13 +66,13 @@ fn the_eye_outside_all_volumes() {
     build.point_light(DVec3::new(1.0, 8.0, 0.5));
     let scene = build.0;
     let settings = seen_from(DVec3::new(4.0, 5.0, 9.0), DVec3::new(0.0, 1.0, 0.0), SIZE);
-    for technique in [Technique::ZPass, Technique::ZFail, Technique::ExactZPass] {
+    for technique in EXACT.into_iter().chain([Technique::ZPass]) {
         let (largest, methods) = assert_exact(&scene, &settings, technique);
         assert_eq!(largest, 2, "one cube's shadow falls into another's");
         let expected = match technique {
             Technique::ZPass => (Method::ZPass, Reason::Technique),
-            Technique::ZFail => (Method::ZFail, Reason::SurfaceCovers),
-            _ => (Method::ExactZPass, Reason::SurfaceCovers),
+            Technique::ExactZPass => (Method::ExactZPass, Reason::SurfaceCovers),
+            _ => (Method::ZFail, Reason::SurfaceCovers),
         };
         assert!(methods.iter().all(|&method| method == expected), "{methods:?}");
     }
@@ -210,7 +210,7 @@ fn mirrored_casters_count_like_others() {
     build.point_light(DVec3::new(0.7, 8.0, 2.0));
     let scene = build.0;
     let settings = seen_from(DVec3::new(1.0, 5.0, 9.0), DVec3::new(0.0, 1.0, 0.0), SIZE);
-    for technique in [Technique::ZPass, Technique::ZFail, Technique::ExactZPass] {
+    for technique in EXACT.into_iter().chain([Technique::ZPass]) {
         assert_exact(&scene, &settings, technique);
     }
 }
@@ -249,4 +249,53 @@ fn without_depth_clamp_exact_z_pass_is_z_fail_and_says_so() {
     let (_, plan) = obscura::director::stage(&settings, &scene, &capabilities).unwrap();
     assert!(plan.volumes.iter().all(|volume| volume.method == Method::ZFail && volume.reason == Reason::NoDepthClamp));
     assert!(plan.notes.iter().any(|note| note.contains("depth clamp")), "{:?}", plan.notes);
+}
+
+/// Pixels that rays decide, as (found, what rays count).
+fn decided(scene: &Scene, settings: &Settings, technique: Technique) -> Vec<(u8, u8)> {
+    let mut stage = Stage::new();
+    stage.set_scene(scene);
+    let (stencil, expected, _) = measure(&mut stage, scene, settings, technique);
+    stencil.into_iter().zip(expected).filter_map(|(found, expected)| expected.map(|count| (found, count))).collect()
+}
+
+#[test]
+fn parity_is_the_counts_lowest_bit() {
+    // One cube's shadow falls into another's: two volumes over one pixel are none to parity.
+    let mut build = cubes_over_floor(&[(-2.0, 1.5, 0.0), (1.0, 2.0, -1.0), (1.2, 3.8, -1.0)], 0.7);
+    build.point_light(DVec3::new(1.0, 8.0, 0.5));
+    let settings = seen_from(DVec3::new(4.0, 5.0, 9.0), DVec3::new(0.0, 1.0, 0.0), SIZE);
+    let pixels = decided(&build.0, &settings, Technique::Parity);
+    assert!(pixels.iter().all(|&(found, count)| found == count % 2));
+    let of = |wanted: u8| pixels.iter().filter(|(_, count)| *count == wanted).count();
+    assert!(of(1) > 100 && of(2) > 20, "{} once, {} twice in shadow", of(1), of(2));
+}
+
+#[test]
+fn to_parity_light_and_shadow_change_places_for_an_eye_in_shadow() {
+    let (scene, settings) = eye_in_shadow(1);
+    let pixels = decided(&scene, &settings, Technique::Parity);
+    assert!(pixels.iter().all(|&(found, count)| found == 1 - count));
+}
+
+#[test]
+fn a_far_plane_takes_the_shadows_of_z_fail_and_leaves_those_of_z_pass() {
+    // Seen from above: all surfaces lie before the far plane, but the volumes go on below the floor.
+    let mut build = cubes_over_floor(&[(-2.0, 1.5, 0.0), (1.0, 2.0, -1.0)], 0.7);
+    build.point_light(DVec3::new(1.0, 8.0, 0.5));
+    let scene = build.0;
+    let settings = seen_from(DVec3::new(0.0, 13.0, 2.0), DVec3::new(0.0, 0.0, 0.0), SIZE);
+    for technique in [Technique::ZFail, Technique::OneSided, Technique::PerPolygon] {
+        assert_exact(&scene, &settings, technique);
+        let cut = Settings { far: Some(15.0), ..settings.clone() };
+        let pixels = decided(&scene, &cut, technique);
+        let lost = pixels.iter().filter(|&&(found, count)| count > 0 && found == count - 1).count();
+        let kept = pixels.iter().filter(|&&(found, count)| count > 0 && found == count).count();
+        println!("{}: {lost} shadows lost, {kept} kept", technique.name());
+        assert!(lost > 100, "{}: what ends beyond the far plane ends nowhere", technique.name());
+        assert!(pixels.iter().all(|&(found, count)| found == count || found == count.wrapping_sub(1)));
+    }
+    for technique in [Technique::ZPass, Technique::ExactZPass] {
+        assert_exact(&scene, &Settings { far: Some(15.0), ..settings.clone() }, technique);
+    }
 }

@@ -25,6 +25,7 @@ pub fn render_command(settings: &Settings) -> String {
         samples,
         camera,
         fov,
+        far,
         time,
         animation,
         smooth_terminator,
@@ -71,6 +72,9 @@ pub fn render_command(settings: &Settings) -> String {
     }
     if let Some(degrees) = fov {
         line.option("--fov", &degrees.to_string());
+    }
+    if let Some(metres) = far {
+        line.option("--far", &metres.to_string());
     }
     if *time != default.time {
         line.option("--time", &time.to_string());

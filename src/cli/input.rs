@@ -90,6 +90,9 @@ pub enum InputError {
     /// Not an angle a picture can have.
     #[error("the field of view must lie between 0 and 180 degrees, not {0}")]
     FieldOfView(f64),
+    /// Not a distance a far plane can have.
+    #[error("the far plane must lie at a finite distance above 0, not {0}")]
+    Far(f64),
     /// The scene has no such thing.
     #[error("no {kind} {index} in this scene: it has {count}{}", counted(*.count))]
     Index {
@@ -133,6 +136,11 @@ pub fn check(settings: &Settings) -> Result<(), InputError> {
         && !(degrees > 0.0 && degrees < 180.0)
     {
         return Err(InputError::FieldOfView(degrees));
+    }
+    if let Some(metres) = settings.far
+        && !(metres > 0.0 && metres.is_finite())
+    {
+        return Err(InputError::Far(metres));
     }
     at_least_zero("the time", settings.time)?;
     bounded("the exposure", f64::from(settings.exposure), Some(f64::from(MAX_EXPOSURE)))?;

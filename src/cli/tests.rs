@@ -43,7 +43,7 @@ fn clap_finds_no_fault_in_the_definition() {
 fn every_argument_reaches_its_setting() {
     let got = settings(
         "obscura render fox.glb --out a.png --technique z-pass --show stencil --light 2 --size 64x32 --samples 4 \
-         --eye -1,2.5,3e2 --target 0,0,-1 --fov 33.5 --time 1.25 --animation 3 --floor --exposure -1.5 \
+         --eye -1,2.5,3e2 --target 0,0,-1 --fov 33.5 --far 7.5 --time 1.25 --animation 3 --floor --exposure -1.5 \
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --light-sample 3 --accumulate 256 \
          --accumulation 8-bit --texturing once --labels \
@@ -69,6 +69,7 @@ fn every_argument_reaches_its_setting() {
         samples: 4,
         camera: CameraChoice::Free { eye: DVec3::new(-1.0, 2.5, 300.0), target: DVec3::new(0.0, 0.0, -1.0) },
         fov: Some(33.5),
+        far: Some(7.5),
         time: 1.25,
         animation: Some(AnimationChoice::One(3)),
         smooth_terminator: false,
@@ -308,6 +309,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
     let eye = (
         any_camera(),
         prop::option::of((1e-300..180f64).prop_filter("an angle", |degrees| *degrees < 180.0)),
+        prop::option::of(1e-300..f64::MAX),
         number(f64::MAX).prop_map(f64::abs),
         prop::option::of(any_animation()),
         any::<bool>(),
@@ -339,7 +341,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
     (picture, eye, rest).prop_map(
         |(
             (scene, floor, technique, show, light, size, samples),
-            (camera, fov, time, animation, smooth_terminator, exposure),
+            (camera, fov, far, time, animation, smooth_terminator, exposure),
             (lights, lighting, adapter, shaders),
         )| Settings {
             scene,
@@ -351,6 +353,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             samples,
             camera,
             fov,
+            far,
             time,
             animation,
             smooth_terminator,

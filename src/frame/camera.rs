@@ -21,6 +21,8 @@ pub struct Camera {
     pub aspect: f64,
     /// Distance of the near plane, metres.
     pub near: f64,
+    /// Distance of the far plane, metres; none by default, and volumes need none (DESIGN section 3).
+    pub far: Option<f64>,
     /// How far along `forward` the point of interest lies, metres: what an orbit turns about.
     pub focus_distance: f64,
     /// How far the picture lies beside where it would, in halves of it, to the right and up: a part of a
@@ -40,6 +42,9 @@ pub enum CameraError {
     /// The angle is outside (0, 180) degrees.
     #[error("the field of view must lie between 0 and 180 degrees, not {0}")]
     FieldOfView(f64),
+    /// The far plane is not behind the near one.
+    #[error("the far plane must lie beyond the near plane at {1} m, not at {0} m")]
+    Far(f64, f64),
 }
 
 /// The near plane of cameras that do not say, metres.
@@ -77,6 +82,12 @@ impl Camera {
             }
             camera.vertical_fov = degrees.to_radians();
         }
+        if let Some(far) = settings.far {
+            if !(far > camera.near && far.is_finite()) {
+                return Err(CameraError::Far(far, camera.near));
+            }
+            camera.far = Some(far);
+        }
         Ok(camera)
     }
 
@@ -91,7 +102,17 @@ impl Camera {
         let forward = (target - eye).try_normalize().ok_or(CameraError::Degenerate("eye and target are the same point"))?;
         let right = forward.cross(DVec3::Y).try_normalize().unwrap_or_else(|| forward.cross(DVec3::NEG_Z).normalize());
         let up = right.cross(forward);
-        Ok(Self { eye, forward, up, vertical_fov, aspect, near, focus_distance: eye.distance(target), shift: DVec2::ZERO })
+        Ok(Self {
+            eye,
+            forward,
+            up,
+            vertical_fov,
+            aspect,
+            near,
+            far: None,
+            focus_distance: eye.distance(target),
+            shift: DVec2::ZERO,
+        })
     }
 
     fn of_scene(scene: &Scene, pose: &Pose, index: usize, aspect: f64) -> Self {
@@ -102,6 +123,7 @@ impl Camera {
             vertical_fov: 50f64.to_radians(),
             aspect,
             near: DEFAULT_NEAR,
+            far: None,
             focus_distance: 8.0,
             shift: DVec2::ZERO,
         };
@@ -118,6 +140,7 @@ impl Camera {
             vertical_fov: camera.vertical_fov,
             aspect,
             near: camera.near,
+            far: None,
             focus_distance: camera.focus_distance,
             shift: DVec2::ZERO,
         }
@@ -135,11 +158,16 @@ impl Camera {
         glam::dcamera::rh::view::look_to_mat4(self.eye, self.forward, self.up)
     }
 
-    /// Reverse-Z with infinite far: near maps to depth 1, infinity to 0 (DESIGN section 3).
+    /// Reverse-Z with infinite far: near maps to depth 1, infinity to 0 (DESIGN section 3). With a far
+    /// plane that maps to 0, and what lies beyond, infinity with it, is cut off.
     #[must_use]
     pub fn clip_from_view(&self) -> DMat4 {
-        let mut clip_from_view =
-            glam::dcamera::rh::proj::directx::perspective_infinite_reverse(self.vertical_fov, self.aspect, self.near);
+        use glam::dcamera::rh::proj::directx::{perspective, perspective_infinite_reverse};
+        let mut clip_from_view = match self.far {
+            None => perspective_infinite_reverse(self.vertical_fov, self.aspect, self.near),
+            // Near and far change places: reverse-Z.
+            Some(far) => perspective(self.vertical_fov, self.aspect, far, self.near),
+        };
         // Times w, which is -z.
         clip_from_view.z_axis.x -= self.shift.x;
         clip_from_view.z_axis.y -= self.shift.y;

@@ -8,6 +8,7 @@ use super::state::Winding;
 use super::stencil::BitBudget;
 use super::step::{Action, Draw, Step};
 use crate::geometry::cutout::{CutoutPlane, Throw};
+use crate::geometry::volume::Outline;
 use crate::settings::Accumulation;
 
 /// Everything that one frame does, in order: ids and values only.
@@ -81,6 +82,8 @@ pub struct VolumePlan {
     pub reason: Reason,
     /// How many of this caster's volumes hold the eye, where the method needs to know.
     pub holds_eye: i32,
+    /// What has sides: the caster's silhouette, or each of its polygons.
+    pub outline: Outline,
     /// The plane it ends on, world space, outward normal and offset; none where it goes to infinity.
     pub end: Option<DVec4>,
     /// What its volume is thrown from, where that is not the caster's own silhouette.

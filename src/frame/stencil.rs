@@ -121,6 +121,29 @@ impl StencilState {
         Self { front: straight.back, back: straight.front, ..straight }
     }
 
+    /// What hardware without two-sided stencil has: one set of operations for both faces, so that
+    /// one of them must be culled (K 6.3, L, C). One more behind the surface: for back faces.
+    #[must_use]
+    pub const fn raise_behind(budget: BitBudget) -> Self {
+        Self::one_sided(budget.count_mask, StencilFace::count(IncrementWrap, Keep))
+    }
+
+    /// The other half of [`Self::raise_behind`]: one less behind the surface, for front faces.
+    #[must_use]
+    pub const fn lower_behind(budget: BitBudget) -> Self {
+        Self::one_sided(budget.count_mask, StencilFace::count(DecrementWrap, Keep))
+    }
+
+    /// Parity (K 6.1): every face before the surface turns the lowest bit over, whichever way it looks.
+    #[must_use]
+    pub const fn invert_z_pass(budget: BitBudget) -> Self {
+        Self::one_sided(budget.count_mask & 1, StencilFace::count(Keep, StencilOp::Invert))
+    }
+
+    const fn one_sided(mask: u8, face: StencilFace) -> Self {
+        Self { front: face, back: face, read_mask: mask, write_mask: mask }
+    }
+
     /// Passes where the count equals the reference, and changes nothing.
     #[must_use]
     pub const fn count_equals(budget: BitBudget) -> Self {

@@ -140,6 +140,10 @@ pub enum Program {
     ToneMap,
     /// Full screen: display values as they are.
     Copy,
+    /// Shadow volumes, no colour, faces seen from the front only.
+    VolumeFronts,
+    /// Shadow volumes, no colour, faces seen from behind only.
+    VolumeBacks,
 }
 
 /// What a step draws, by number.
@@ -180,6 +184,9 @@ pub struct VolumePart {
 pub enum Part {
     /// Quads from silhouette edges to infinity (triangles, for directional lights).
     Sides,
+    /// The sides of single polygons that their neighbours' sides cancel: in the neighbour's vertex
+    /// order, so that both have the same depth to the last bit.
+    SidesTurned,
     /// Light-facing triangles, in the surface's vertex order.
     LightCapKept,
     /// Triangles turned to face the light, in the surface's vertex order nonetheless.

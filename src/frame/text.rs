@@ -6,6 +6,7 @@ use std::fmt::{Display, Formatter, Result};
 use super::plan::FramePlan;
 use super::state::DepthBias;
 use super::step::{Action, Draw, DrawSet, Part};
+use crate::geometry::volume::Outline;
 use crate::settings::Accumulation;
 
 impl Display for FramePlan {
@@ -36,6 +37,9 @@ impl Display for FramePlan {
             )?;
             if volume.holds_eye != 0 {
                 write!(f, "; {} hold the eye", volume.holds_eye)?;
+            }
+            if volume.outline == Outline::Polygons {
+                write!(f, "; of every polygon")?;
             }
             if let Some(end) = volume.end {
                 write!(f, "; ends where ({}) . x = {:.3}", end.truncate(), -end.w)?;
@@ -100,6 +104,7 @@ fn contents(set: &DrawSet) -> String {
             for part in parts {
                 by_volume.entry(part.volume).or_default().push(match part.part {
                     Part::Sides => "sides",
+                    Part::SidesTurned => "turned sides",
                     Part::LightCapKept => "light cap",
                     Part::LightCapTurned => "turned light cap",
                     Part::DarkCap => "dark cap",

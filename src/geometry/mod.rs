@@ -18,5 +18,5 @@ pub use eye_count::{EyeCount, holding_count};
 pub use frustum::NearPyramid;
 pub use silhouette::{Facing, Planes, light_in_object};
 pub use topology::{Topology, TopologyReport};
-pub use volume::{Caster, VolumeIndices, VolumeParts, VolumeScratch};
+pub use volume::{Caster, Outline, VolumeIndices, VolumeParts, VolumeScratch};
 pub use weld::Weld;

@@ -146,6 +146,37 @@ pub fn silhouette(topology: &Topology, facing: &Facing, edges: &mut Vec<[u32; 2]
     }
 }
 
+/// The edges of every counted polygon by itself, none left out (K 6.3), into `kept` and `turned`
+/// (cleared first).
+///
+/// Where two polygons meet, their sides fill the same place and must cancel. They do so to the last
+/// bit only if both are drawn in the same vertex order, so one of them goes to `turned`: it is to be
+/// drawn as the other, with increment and decrement swapped. The order is that of the silhouette,
+/// should the edge be part of it: `kept` less `turned` is [`silhouette`]'s very list.
+pub fn polygon_edges(topology: &Topology, facing: &Facing, kept: &mut Vec<[u32; 2]>, turned: &mut Vec<[u32; 2]>) {
+    kept.clear();
+    turned.clear();
+    let contributions = facing.contributions();
+    let counts = |triangle: u32, sign: i32| sign * i32::from(contributions[triangle as usize]);
+    let mut add = |[a, b]: [u32; 2], along: &[i32]| {
+        let forward = along.iter().sum::<i32>() >= 0;
+        let edge = if forward { [a, b] } else { [b, a] };
+        for &count in along.iter().filter(|count| **count != 0) {
+            if (count > 0) == forward { kept.push(edge) } else { turned.push(edge) }
+        }
+    };
+    let pairs = topology.pairs();
+    for at in 0..pairs.a.len() {
+        add([pairs.a[at], pairs.b[at]], &[counts(pairs.forward[at], 1), counts(pairs.backward[at], -1)]);
+    }
+    let mut along = Vec::new();
+    for (ends, incidences) in topology.others().iter() {
+        along.clear();
+        along.extend(incidences.map(|(triangle, sign)| counts(triangle, sign)));
+        add(ends, &along);
+    }
+}
+
 fn repeat(edges: &mut Vec<[u32; 2]>, [a, b]: [u32; 2], times: i32) {
     let edge = if times > 0 { [a, b] } else { [b, a] };
     edges.extend(std::iter::repeat_n(edge, times.unsigned_abs() as usize));

@@ -32,7 +32,7 @@ use std::ops::Range;
 use glam::{DVec3, Vec3, Vec4};
 use serde::Serialize;
 
-use super::silhouette::{Facing, Planes, silhouette};
+use super::silhouette::{Facing, Planes, polygon_edges, silhouette};
 use super::{Aabb, Topology};
 
 /// A mesh in one pose, as its volumes see it.
@@ -48,6 +48,17 @@ pub struct Caster<'a> {
     pub bounds: &'a Aabb,
 }
 
+/// What has sides.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outline {
+    /// The caster's silhouette: sides where counted triangles end.
+    #[default]
+    Silhouette,
+    /// Each counted triangle by itself (K 6.3): a volume a polygon, three sides each.
+    Polygons,
+}
+
 /// Which parts of a volume are wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 pub struct VolumeParts {
@@ -57,13 +68,17 @@ pub struct VolumeParts {
     pub light_cap: bool,
     /// At infinity. There is none for directional lights.
     pub dark_cap: bool,
+    /// What the sides and the dark cap follow.
+    pub outline: Outline,
 }
 
 impl VolumeParts {
+    /// Nothing yet.
+    pub const NONE: Self = Self { sides: false, light_cap: false, dark_cap: false, outline: Outline::Silhouette };
     /// What z-pass counts with.
-    pub const SIDES: Self = Self { sides: true, light_cap: false, dark_cap: false };
+    pub const SIDES: Self = Self { sides: true, ..Self::NONE };
     /// What z-fail counts with.
-    pub const ALL: Self = Self { sides: true, light_cap: true, dark_cap: true };
+    pub const ALL: Self = Self { light_cap: true, dark_cap: true, ..Self::SIDES };
 }
 
 /// Where a volume's parts stand among the indices. Parts that were not asked for are empty.
@@ -71,6 +86,8 @@ impl VolumeParts {
 pub struct VolumeIndices {
     /// Counter-clockwise from outside.
     pub sides: Range<u32>,
+    /// *Clockwise* from outside: draw with increment and decrement swapped. Of single polygons only.
+    pub sides_turned: Range<u32>,
     /// Counter-clockwise from outside, which is the light's side; the mesh's own order.
     pub light_cap_kept: Range<u32>,
     /// *Clockwise* from outside: draw with increment and decrement swapped.
@@ -83,7 +100,7 @@ impl VolumeIndices {
     /// In all parts.
     #[must_use]
     pub fn triangles(&self) -> u32 {
-        [&self.sides, &self.light_cap_kept, &self.light_cap_turned, &self.dark_cap]
+        [&self.sides, &self.sides_turned, &self.light_cap_kept, &self.light_cap_turned, &self.dark_cap]
             .iter()
             .map(|part| part.len() as u32)
             .sum::<u32>()
@@ -96,6 +113,7 @@ impl VolumeIndices {
 pub struct VolumeScratch {
     facing: Facing,
     edges: Vec<[u32; 2]>,
+    turned: Vec<[u32; 2]>,
 }
 
 impl VolumeScratch {
@@ -105,7 +123,8 @@ impl VolumeScratch {
         &self.facing
     }
 
-    /// The silhouette of the last volume that had sides or a dark cap.
+    /// The silhouette of the last volume that had sides or a dark cap; all edges of its polygons, where
+    /// each had a volume of its own, but for those that cancel one of these.
     #[must_use]
     pub fn silhouette(&self) -> &[[u32; 2]] {
         &self.edges
@@ -119,7 +138,13 @@ impl VolumeScratch {
         self.facing.decide(topology, planes, light);
         let dark_cap = parts.dark_cap && light.w != 0.0;
         if parts.sides || dark_cap {
-            silhouette(topology, &self.facing, &mut self.edges);
+            match parts.outline {
+                Outline::Silhouette => {
+                    silhouette(topology, &self.facing, &mut self.edges);
+                    self.turned.clear();
+                }
+                Outline::Polygons => polygon_edges(topology, &self.facing, &mut self.edges, &mut self.turned),
+            }
         }
         let extruded = |vertex: u32| vertex + topology.weld().len() as u32;
 
@@ -131,12 +156,14 @@ impl VolumeScratch {
             range
         };
         if parts.sides {
-            if light.w == 0.0 {
-                indices.extend(self.edges.iter().flat_map(|&[a, b]| [a, extruded(a), b]));
-            } else {
-                indices.extend(self.edges.iter().flat_map(|&[a, b]| [a, extruded(a), extruded(b), a, extruded(b), b]));
+            for (edges, range) in [(&self.edges, &mut ranges.sides), (&self.turned, &mut ranges.sides_turned)] {
+                if light.w == 0.0 {
+                    indices.extend(edges.iter().flat_map(|&[a, b]| [a, extruded(a), b]));
+                } else {
+                    indices.extend(edges.iter().flat_map(|&[a, b]| [a, extruded(a), extruded(b), a, extruded(b), b]));
+                }
+                *range = since(indices);
             }
-            ranges.sides = since(indices);
         }
         if parts.light_cap {
             indices.extend(self.counted(topology, 1).flatten());
@@ -146,7 +173,10 @@ impl VolumeScratch {
         }
         if dark_cap {
             match self.edges.first() {
-                Some(&[pivot, _]) if within_half_space(welded, caster.bounds, light.truncate(), &self.edges) => {
+                Some(&[pivot, _])
+                    if parts.outline == Outline::Silhouette
+                        && within_half_space(welded, caster.bounds, light.truncate(), &self.edges) =>
+                {
                     let apart = self.edges.iter().filter(|edge| !edge.contains(&pivot));
                     indices.extend(apart.flat_map(|&[a, b]| [pivot, b, a]).map(extruded));
                 }

@@ -303,6 +303,7 @@ enum Bound {
 fn range_of(indices: &VolumeIndices, part: Part) -> std::ops::Range<u32> {
     match part {
         Part::Sides => indices.sides.clone(),
+        Part::SidesTurned => indices.sides_turned.clone(),
         Part::LightCapKept => indices.light_cap_kept.clone(),
         Part::LightCapTurned => indices.light_cap_turned.clone(),
         Part::DarkCap => indices.dark_cap.clone(),

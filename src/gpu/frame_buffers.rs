@@ -199,10 +199,10 @@ impl FrameBuffers {
         for (_, draw) in plan.draws() {
             if let DrawSet::Volumes(parts) = &draw.set {
                 for part in parts {
-                    let wanted =
-                        scratch.parts[part.volume].get_or_insert(VolumeParts { sides: false, light_cap: false, dark_cap: false });
+                    let outline = plan.volumes[part.volume].outline;
+                    let wanted = scratch.parts[part.volume].get_or_insert(VolumeParts { outline, ..VolumeParts::NONE });
                     match part.part {
-                        Part::Sides => wanted.sides = true,
+                        Part::Sides | Part::SidesTurned => wanted.sides = true,
                         Part::LightCapKept | Part::LightCapTurned => wanted.light_cap = true,
                         Part::DarkCap => wanted.dark_cap = true,
                     }

@@ -85,7 +85,7 @@ const SURFACE: &[Override] = &[Override::Textured, Override::Glossy, Override::B
 const LIT: &[Override] = &[Override::Textured, Override::Glossy, Override::BothSides, Override::LightKind];
 
 /// Every program, in the order of the enum.
-pub const PROGRAMS: [Entry; 12] = [
+pub const PROGRAMS: [Entry; 14] = [
     entry(Program::Ambient, "ambient.wgsl", "surface_vertex", "ambient", Vertices::Surface, SURFACE),
     entry(Program::AmbientMasked, "ambient.wgsl", "surface_vertex", "ambient_masked", Vertices::Surface, SURFACE),
     entry(Program::Lit, "lit.wgsl", "surface_vertex", "lit", Vertices::Surface, LIT),
@@ -98,6 +98,8 @@ pub const PROGRAMS: [Entry; 12] = [
     entry(Program::StencilColors, "output.wgsl", "full_screen_vertex", "stencil_colors", Vertices::None, &[]),
     entry(Program::ToneMap, "output.wgsl", "full_screen_vertex", "tone_map", Vertices::None, &[]),
     entry(Program::Copy, "output.wgsl", "full_screen_vertex", "copy", Vertices::None, &[]),
+    entry(Program::VolumeFronts, "volume.wgsl", "volume_vertex", "volume_count_fronts", Vertices::Volume, &[]),
+    entry(Program::VolumeBacks, "volume.wgsl", "volume_vertex", "volume_count_backs", Vertices::Volume, &[]),
 ];
 
 /// The entry of a program.

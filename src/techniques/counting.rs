@@ -121,6 +121,10 @@ impl Caster<'_> {
     /// The plane on which its volume may end without a visible pixel's count changing.
     #[must_use]
     pub fn end(&self) -> Option<DVec4> {
+        if self.view.camera.far.is_some() {
+            // The far plane is to show what it does to volumes without end.
+            return None;
+        }
         let world_from_object = self.pose.world_from_object[self.node_index];
         let corners =
             self.pose.bounds(self.scene, self.node_index).corners().map(|corner| world_from_object.transform_point3(corner));
@@ -167,6 +171,7 @@ pub fn count_light(
             method,
             reason,
             holds_eye,
+            outline: row.outline,
             end: if cutout.is_none() { caster.end() } else { None },
             cutout,
             turns,
@@ -199,6 +204,7 @@ pub fn count_light(
 }
 
 /// Parts of volumes that are counted by the same state: one step for each winding.
+#[derive(Clone, Copy)]
 pub struct Group {
     /// Whose parts.
     pub method: Method,
@@ -237,8 +243,13 @@ impl Group {
 
     fn step(&self, light: usize, winding: Winding, scissor: [u32; 4], budget: BitBudget, parts: Vec<VolumePart>) -> Step {
         let mirrored = if winding == Winding::Cw { ", mirrored" } else { "" };
+        let faces = match (self.program, self.cull) {
+            (Program::VolumeFronts, _) | (_, Cull::Back) => ", fronts",
+            (Program::VolumeBacks, _) | (_, Cull::Front) => ", backs",
+            _ => "",
+        };
         Step {
-            label: format!("light {light}: {}{mirrored}", self.label),
+            label: format!("light {light}: {}{faces}{mirrored}", self.label),
             why: self.why.into(),
             view: 0,
             action: Action::Draw(Box::new(Draw {

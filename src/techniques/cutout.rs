@@ -11,6 +11,7 @@
 
 use super::{Caster, Row, z_fail};
 use crate::frame::{Cutout, CutoutShape, Method, Reason};
+use crate::geometry::Outline;
 use crate::settings::Technique;
 
 pub(super) const ROW: Row = Row {
@@ -20,6 +21,7 @@ pub(super) const ROW: Row = Row {
     exact: true,
     source: "Kilgard 1999, 6.2.1 and appendix C",
     decide: |caster| Some(decide(caster)),
+    outline: Outline::Silhouette,
     groups: &[z_fail::GROUPS],
 };
 

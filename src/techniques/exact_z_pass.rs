@@ -23,6 +23,7 @@ use super::{Caster, Group, Row, z_fail};
 use crate::frame::state::NearPlane;
 use crate::frame::stencil::StencilState;
 use crate::frame::{Method, Part, Reason};
+use crate::geometry::Outline;
 use crate::settings::Technique;
 
 pub(super) const ROW: Row = Row {
@@ -32,6 +33,7 @@ pub(super) const ROW: Row = Row {
     exact: true,
     source: "this project; after Heidmann 1991 and Lengyel 2002; aim as in Usta et al. 2019",
     decide: |caster| Some(decide(caster)),
+    outline: Outline::Silhouette,
     groups: &[GROUPS, z_fail::GROUPS],
 };
 

@@ -14,6 +14,7 @@
 
 use super::{Caster, Row, z_fail};
 use crate::frame::{Cutout, CutoutShape, Method, Reason};
+use crate::geometry::Outline;
 use crate::geometry::flatten::flattening_plane;
 use crate::settings::Technique;
 
@@ -24,6 +25,7 @@ pub(super) const ROW: Row = Row {
     exact: false,
     source: "Kilgard 1999, 6.2.2",
     decide: |caster| Some(decide(caster)),
+    outline: Outline::Silhouette,
     groups: &[z_fail::GROUPS],
 };
 

@@ -13,12 +13,16 @@ mod cutout;
 mod exact_z_pass;
 mod flattened;
 mod none;
+mod one_sided;
+mod parity;
+mod per_polygon;
 pub mod show;
 pub mod surfaces;
 mod z_fail;
 mod z_pass;
 
 use crate::frame::{Method, Reason};
+use crate::geometry::Outline;
 use crate::settings::Technique;
 
 pub use counting::{Caster, Group};
@@ -37,13 +41,25 @@ pub struct Row {
     pub source: &'static str,
     /// How one caster is counted, and why; `None` leaves all shadows out.
     pub decide: fn(&Caster<'_>) -> Option<(Method, Reason)>,
+    /// Whether a caster has one volume, or each of its polygons one.
+    pub outline: Outline,
     /// The states that its volumes' parts are counted with, in order; those of a technique that it
     /// falls back on among them.
     pub groups: &'static [&'static [Group]],
 }
 
 /// Every technique, in the order of [`Technique::ALL`].
-pub static TABLE: &[Row] = &[none::ROW, z_pass::ROW, z_fail::ROW, exact_z_pass::ROW, cutout::ROW, flattened::ROW];
+pub static TABLE: &[Row] = &[
+    none::ROW,
+    z_pass::ROW,
+    z_fail::ROW,
+    exact_z_pass::ROW,
+    one_sided::ROW,
+    per_polygon::ROW,
+    parity::ROW,
+    cutout::ROW,
+    flattened::ROW,
+];
 
 /// The row of a technique.
 #[must_use]

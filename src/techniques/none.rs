@@ -1,6 +1,7 @@
 //! No shadows: every light reaches everything in its range. What shadows cost is measured against this.
 
 use super::Row;
+use crate::geometry::Outline;
 use crate::settings::Technique;
 
 pub(super) const ROW: Row = Row {
@@ -10,5 +11,6 @@ pub(super) const ROW: Row = Row {
     exact: false,
     source: "the baseline",
     decide: |_| None,
+    outline: Outline::Silhouette,
     groups: &[],
 };

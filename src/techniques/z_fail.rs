@@ -17,6 +17,7 @@ use super::{Caster, Group, Row};
 use crate::frame::state::Depth;
 use crate::frame::stencil::StencilState;
 use crate::frame::{Method, Part, Reason};
+use crate::geometry::Outline;
 use crate::settings::Technique;
 
 pub(super) const ROW: Row = Row {
@@ -26,6 +27,7 @@ pub(super) const ROW: Row = Row {
     exact: true,
     source: "Carmack 2000; McGuire et al. 2003, 3; Lengyel 2002, Rendering Shadow Volumes",
     decide: |caster| Some(decide(caster)),
+    outline: Outline::Silhouette,
     groups: &[GROUPS],
 };
 

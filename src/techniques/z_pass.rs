@@ -17,6 +17,7 @@
 use super::{Group, Row};
 use crate::frame::stencil::StencilState;
 use crate::frame::{Method, Part, Reason};
+use crate::geometry::Outline;
 use crate::settings::Technique;
 
 pub(super) const ROW: Row = Row {
@@ -26,6 +27,7 @@ pub(super) const ROW: Row = Row {
     exact: false,
     source: "Heidmann 1991; Kilgard 1999, 6; Lengyel 2002, Rendering Shadow Volumes",
     decide: |_| Some((Method::ZPass, Reason::Technique)),
+    outline: Outline::Silhouette,
     groups: &[GROUPS],
 };
 

@@ -52,6 +52,7 @@ pub fn camera(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
     if angle.changed() {
         desk.settings.fov = Some(degrees);
     }
+    far_plane(ui, desk, &shown);
     let mut place = Place { eye: shown.eye, target: shown.target() };
     let eye = point(ui, "Eye", "Where the eye is", &mut place.eye);
     let target = point(ui, "Target", "What the eye looks at", &mut place.target);
@@ -66,6 +67,24 @@ pub fn camera(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
         let copy = ui.button("Copy place").on_hover_text("Copy --eye, --target and --fov for the command line");
         if copy.clicked() {
             ui.ctx().copy_text(words(&shown));
+        }
+    });
+}
+
+/// Whether there is a far plane, and where: volumes need none, and suffer from one.
+fn far_plane(ui: &mut Ui, desk: &mut Desk<'_>, shown: &Camera) {
+    let mut there = desk.settings.far.is_some();
+    let tip = "Cuts surfaces and shadow volumes off, as every projection but an infinite one does: \
+               what is counted from infinity (z-fail) then goes wrong (McGuire et al. 2003, 3)";
+    ui.horizontal(|ui| {
+        if ui.checkbox(&mut there, "Far plane").on_hover_text(tip).changed() {
+            // Where the view's target is, something is there to be cut.
+            desk.settings.far = there.then(|| (shown.focus_distance * 1.5).max(shown.near * 2.0));
+        }
+        if let Some(far) = &mut desk.settings.far {
+            let least = shown.near * 1.01;
+            let response = ui.add(number(far).speed(0.05).range(least..=1e6).max_decimals(2).suffix(" m"));
+            style::name_it(&response, "Distance of the far plane");
         }
     });
 }
