@@ -41,6 +41,13 @@ pub enum Command {
         /// Prints what was done as JSON.
         json: bool,
     },
+    /// Holds what techniques draw against exact rays.
+    Verify {
+        /// What is drawn and asked.
+        request: Box<VerifyRequest>,
+        /// Prints what was found as JSON.
+        json: bool,
+    },
     /// Names scenes, techniques and shows.
     List {
         /// As JSON.
@@ -61,6 +68,24 @@ pub enum Command {
         out: PathBuf,
     },
 }
+
+/// What is to be verified.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VerifyRequest {
+    /// The view; of random ones what all have in common.
+    pub settings: Settings,
+    /// Drawn by each of these.
+    pub techniques: Vec<Technique>,
+    /// Only this light; else all of them, or one at random in each random view.
+    pub light: Option<usize>,
+    /// How many random views, and the seed they are made from.
+    pub random: Option<(usize, u64)>,
+    /// A picture of the wrong pixels.
+    pub diff: Option<PathBuf>,
+}
+
+/// The size of random views, pixels: small, for there are many of them.
+pub const RANDOM_SIZE: [u32; 2] = [320, 180];
 
 /// What the arguments say about the window, apart from what its last run left.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,8 +127,13 @@ pub fn parse<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) 
     let picture = match &cli.command {
         None => &cli.window.picture,
         Some(Subcommands::Render(render)) => &render.picture,
+        Some(Subcommands::Verify(verify)) => &verify.picture,
         Some(_) => return Ok(Parsed { cli, bare }),
     };
+    if let (Some(Subcommands::Verify(_)), Some(_)) = (&cli.command, &picture.show) {
+        let words = "verify always draws `--show shadow`: leave --show out";
+        return Err(Cli::command().error(ErrorKind::ArgumentConflict, words));
+    }
     match (picture.eye, picture.target) {
         (Some(_), None) => Err(Cli::command().error(ErrorKind::MissingRequiredArgument, "--eye needs --target <X,Y,Z>")),
         (None, Some(_)) => Err(Cli::command().error(ErrorKind::MissingRequiredArgument, "--target needs --eye <X,Y,Z>")),
@@ -137,6 +167,10 @@ impl Parsed {
                 out: render.out,
                 json: render.json,
             },
+            Some(Subcommands::Verify(verify)) => {
+                let json = verify.json;
+                Command::Verify { request: Box::new(verify.request()?), json }
+            }
             Some(Subcommands::List { json }) => Command::List { json },
             Some(Subcommands::Info { scene, floor, json }) => Command::Info { scene: scene_choice(&scene)?, floor, json },
             Some(Subcommands::Tour { out }) => Command::Tour { out },
@@ -190,6 +224,13 @@ struct Cli {
 enum Subcommands {
     /// Draws one picture into a PNG file
     Render(Box<RenderArguments>),
+    /// Holds what the techniques draw against exact rays, pixel by pixel
+    ///
+    /// Draws `--show shadow` of each light (or of light K) by each technique, and asks rays in double
+    /// precision what each pixel must be. Where rays through the pixel disagree it is an edge; all others
+    /// are decided. Ends with exit code 1 if a technique that claims to be exact has one wrong decided
+    /// pixel; techniques known to fail only have theirs counted.
+    Verify(Box<VerifyArguments>),
     /// Names the stock scenes, the techniques and what can be shown
     List {
         /// Prints JSON
@@ -250,6 +291,52 @@ struct RenderArguments {
     /// Prints what was drawn, and how long it took, as JSON
     #[arg(long)]
     json: bool,
+}
+
+#[derive(Debug, Args)]
+struct VerifyArguments {
+    /// A stock scene's name, or a .gltf or .glb file (`./name` where a file has a stock name)
+    #[arg(value_name = "SCENE")]
+    scene: OsString,
+    #[command(flatten)]
+    picture: PictureArguments,
+    /// Looks from N random places with the light at random places: anywhere, in casters, in their
+    /// shadows, with casters across the near plane; 320x180 pixels each unless --size says otherwise
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    random: Option<u32>,
+    /// What the random views are made from: the same seed gives the same views everywhere
+    #[arg(long, value_name = "S", default_value_t = 1, requires = "random")]
+    seed: u64,
+    /// Writes a picture of the wrong pixels: red drawn lit, blue drawn dark, edges faintly
+    #[arg(long, value_name = "FILE.png")]
+    diff: Option<PathBuf>,
+    /// Prints what was found as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl VerifyArguments {
+    fn request(self) -> Result<VerifyRequest, InputError> {
+        let mut picture = self.picture;
+        // Without shadows there is nothing to verify, unless it is asked for.
+        let counting = || Technique::ALL.into_iter().filter(|technique| *technique != Technique::None).collect();
+        let techniques = match picture.technique.take_if(|name| name == "all") {
+            None if picture.technique.is_some() => None,
+            _ => Some(counting()),
+        };
+        if self.random.is_some() {
+            picture.size.get_or_insert(RANDOM_SIZE);
+        }
+        let light = picture.light;
+        let settings = picture.settings(Some(&self.scene), Settings::default())?;
+        Ok(VerifyRequest {
+            techniques: techniques.unwrap_or_else(|| vec![settings.technique]),
+            settings,
+            light,
+            random: self.random.map(|count| (count as usize, self.seed)),
+            diff: self.diff,
+        })
+    }
 }
 
 /// What both the window and `render` understand. Words and numbers are kept as they were read;

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use obscura::cli::{self, Command, WindowRequest};
-use obscura::headless::{self, catalog::Catalog, render::render, tour};
+use obscura::headless::{self, catalog::Catalog, render::render, tour, verify::verify};
 use obscura::scene::doctor;
 use serde::Serialize;
 use tracing_subscriber::EnvFilter;
@@ -51,6 +51,14 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Render { settings, out, json } => {
             let report = render(&settings, &out, json)?;
             if json { print_json(&report) } else { Ok(()) }
+        }
+        Command::Verify { request, json } => {
+            let report = verify(&request)?;
+            print_as(&report, json)?;
+            match report.broken_promises() {
+                0 => Ok(()),
+                wrong => Err(Failure(format!("{wrong} pixels are wrong by techniques that claim to be exact"))),
+            }
         }
         Command::List { json } => print_as(&Catalog::new(), json),
         Command::Info { scene, floor, json } => print_as(&doctor::report(&headless::open_scene(&scene, floor)?), json),

@@ -1,6 +1,7 @@
 //! Everything without a window: pictures, lists and reports.
 //!
 //! - [`render`] draws one picture, [`tour`] all of them; [`save`](save_png) writes them whole or not at all;
+//! - [`verify`] holds what is drawn against exact rays, also on random views ([`wander`]);
 //! - [`json`] is what `render --json` prints, [`catalog`] what `list` prints.
 
 pub mod catalog;
@@ -8,6 +9,8 @@ pub mod json;
 pub mod render;
 mod save;
 pub mod tour;
+pub mod verify;
+pub mod wander;
 
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
@@ -41,6 +44,9 @@ pub enum HeadlessError {
     /// The picture cannot be written.
     #[error(transparent)]
     Save(#[from] SaveError),
+    /// There is nothing to verify.
+    #[error("{0} has no lights: there are no shadows to verify")]
+    NoLights(String),
     /// The folder cannot be made.
     #[error("cannot make the folder {folder}: {error}", folder = .0.display(), error = .1)]
     Folder(PathBuf, #[source] std::io::Error),

@@ -131,32 +131,29 @@ impl Verdicts {
         }
         comparison
     }
+}
 
-    /// Paints a comparison over a picture of the view, which is dimmed: edges faintly, wrong pixels
-    /// in [`Wrong::color`] with a pale frame around each, so that one alone is found.
-    pub fn paint(&self, comparison: &Comparison, picture: &mut RgbaImage) {
-        for pixel in picture.pixels_mut() {
-            let [r, g, b, a] = pixel.0;
-            pixel.0 = [r / 3, g / 3, b / 3, a];
+/// Paints wrong pixels over a picture of the view, which is dimmed: edges of any of `verdicts` faintly,
+/// wrong pixels in [`Wrong::color`] with a pale frame around each, so that one alone is found.
+pub fn paint(picture: &mut RgbaImage, verdicts: &[Verdicts], wrong: &[WrongPixel]) {
+    for pixel in picture.pixels_mut() {
+        let [r, g, b, a] = pixel.0;
+        pixel.0 = [r / 3, g / 3, b / 3, a];
+    }
+    let edge = |at: usize| verdicts.iter().any(|verdicts| verdicts.pixels.get(at) == Some(&Verdict::Edge));
+    for (_, pixel) in picture.pixels_mut().enumerate().filter(|(at, _)| edge(*at)) {
+        let [r, g, b, a] = pixel.0;
+        pixel.0 = [r.saturating_add(28), g.saturating_add(28), b.saturating_add(34), a];
+    }
+    for (x, y) in wrong.iter().flat_map(|wrong| around(wrong.x, wrong.y)) {
+        if let Some(pixel) = picture.get_pixel_mut_checked(x, y) {
+            *pixel = Rgba([150, 150, 150, 255]);
         }
-        for (at, _) in (0u32..).zip(&self.pixels).filter(|(_, verdict)| **verdict == Verdict::Edge) {
-            if let Some(pixel) = picture.get_pixel_mut_checked(at % self.size[0], at / self.size[0]) {
-                let [r, g, b, a] = pixel.0;
-                pixel.0 = [r.saturating_add(28), g.saturating_add(28), b.saturating_add(34), a];
-            }
-        }
-        for wrong in &comparison.pixels {
-            for (x, y) in around(wrong.x, wrong.y) {
-                if let Some(pixel) = picture.get_pixel_mut_checked(x, y) {
-                    *pixel = Rgba([150, 150, 150, 255]);
-                }
-            }
-        }
-        for wrong in &comparison.pixels {
-            if let Some(pixel) = picture.get_pixel_mut_checked(wrong.x, wrong.y) {
-                let [r, g, b] = wrong.how.color();
-                *pixel = Rgba([r, g, b, 255]);
-            }
+    }
+    for wrong in wrong {
+        if let Some(pixel) = picture.get_pixel_mut_checked(wrong.x, wrong.y) {
+            let [r, g, b] = wrong.how.color();
+            *pixel = Rgba([r, g, b, 255]);
         }
     }
 }
@@ -218,12 +215,12 @@ mod tests {
     fn wrong_pixels_are_painted_over_their_neighbours_frames() {
         let comparison = verdicts().compare(&picture([0, 255, 9, 128, 128, 255]));
         let mut painted = picture([90; 6]);
-        verdicts().paint(&comparison, &mut painted);
+        paint(&mut painted, &[verdicts()], &comparison.pixels);
         let color = |x, y| [0, 1, 2].map(|channel| painted.get_pixel(x, y).0[channel]);
         assert_eq!((color(0, 0), color(1, 0)), (Wrong::Dark.color(), Wrong::Lit.color()));
         assert_eq!(color(0, 1), [150; 3]);
         let mut calm = picture([90; 6]);
-        verdicts().paint(&Comparison::default(), &mut calm);
+        paint(&mut calm, &[verdicts()], &[]);
         assert_eq!(calm.get_pixel(0, 0).0, [30, 30, 30, 255]);
         assert_eq!(calm.get_pixel(2, 0).0, [58, 58, 64, 255]);
     }

@@ -72,6 +72,14 @@ impl World {
         self.rows(camera, size, &|_| true, row).unwrap_or_default().into_iter().flatten().collect()
     }
 
+    /// Whether a point is in shadow of `light`; on a border it may say either.
+    #[must_use]
+    pub fn shades(&self, point: DVec3, light: &PosedLight) -> bool {
+        let mut shadow = Shadow::new(self, light, &[point; 5]);
+        self.tree.descend(&mut shadow, &mut Stack::new());
+        light.shadows && shadow.counts[0] > 0
+    }
+
     /// Every row of a picture, on all cores.
     fn rows<T: Send>(
         &self,

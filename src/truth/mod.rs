@@ -51,5 +51,5 @@ mod mask;
 mod tree;
 mod world;
 
-pub use compare::{Comparison, Verdict, Verdicts, Wrong, WrongPixel};
+pub use compare::{Comparison, Verdict, Verdicts, Wrong, WrongPixel, paint};
 pub use world::World;

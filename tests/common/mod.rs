@@ -11,10 +11,11 @@ use glam::{DAffine3, DQuat, DVec3, Vec2, Vec3};
 use obscura::director;
 use obscura::frame::FramePlan;
 use obscura::gpu::{Context, FrameStats, Renderer, readback};
+use obscura::headless::verify::{Kept, verify_view};
 use obscura::scene::mesh::MeshParts;
 use obscura::scene::{Camera, Light, LightKind, Material, Mesh, Node, Pose, Primitive, Scene, Transform};
 use obscura::settings::{CameraChoice, Settings, Show};
-use obscura::truth::{Comparison, World};
+use obscura::truth::Comparison;
 
 /// A device and what is drawn on it.
 pub struct Stage {
@@ -53,14 +54,10 @@ impl Stage {
     /// Holds every light's `show shadow` of the scene that was set last, drawn by the settings'
     /// technique, against exact rays.
     pub fn verify(&mut self, settings: &Settings, scene: &Scene) -> Vec<Comparison> {
-        let lights = 0..scene.lights.len();
-        let shots: Vec<_> =
-            lights.map(|light| self.shoot(&Settings { show: Show::Shadow, light, ..settings.clone() }, scene)).collect();
-        let Some(shot) = shots.first() else { return Vec::new() };
-        let camera = &shot.plan.views[0].camera;
-        let world = World::new(scene, &shot.pose);
-        let verdicts = world.judge_lights(camera, &shot.pose.lights, settings.size, &|_| true).unwrap();
-        verdicts.iter().zip(&shots).map(|(verdicts, shot)| verdicts.compare(&shot.image)).collect()
+        let lights: Vec<_> = (0..scene.lights.len()).collect();
+        let device = (&self.context, &mut self.renderer);
+        let view = verify_view(device, scene, settings, &[settings.technique], &lights, &mut Kept::default()).unwrap();
+        view.found.into_iter().map(|(.., comparison)| comparison).collect()
     }
 
     /// The stencil after the last frame, rows from the top.
