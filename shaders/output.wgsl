@@ -1,5 +1,6 @@
 #include "shared/frame.wgsl"
 #include "shared/full_screen.wgsl"
+#include "shared/tone.wgsl"
 
 @group(1) @binding(0) var scene_color: texture_2d<f32>;
 @group(1) @binding(1) var scene_stencil: texture_2d<u32>;
@@ -14,32 +15,21 @@ fn gather(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     return select(before + (scene - before) * draw.constant.x, scene, draw.constant.x == 1.0);
 }
 
-// Linear light to the picture. Khronos' PBR Neutral curve (2024): what is below 0.8 keeps its hue
-// and nearly its value, what is above is brought down to 1 and gently bleached.
-fn tone_curve(linear: vec3f) -> vec3f {
-    let start = 0.8 - 0.04;
-    let desaturation = 0.15;
-    let least = min(linear.r, min(linear.g, linear.b));
-    let offset = select(0.04, least - 6.25 * least * least, least < 0.08);
-    let color = linear - offset;
-    let peak = max(color.r, max(color.g, color.b));
-    if peak < start {
-        return color;
-    }
-    let room = 1.0 - start;
-    let sum = peak + room - start;
-    let scale = (sum - room * room) / (peak * sum);
-    let new_peak = peak * scale;
-    let bleach = 1.0 - 1.0 / (desaturation * (peak - new_peak) + 1.0);
-    return mix(color * scale, vec3f(new_peak), bleach);
-}
-
 @fragment
 fn tone_map(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let scene = textureLoad(scene_color, vec2i(pixel.xy), 0);
     // Where no surface is, or only blended ones, the gradient behind everything shows.
-    let behind = mix(frame.background_top, frame.background_bottom, pixel.y / frame.size.y) * (1.0 - scene.a);
+    let behind = gradient(pixel.y) * (1.0 - scene.a);
     return vec4f(tone_curve(scene.rgb * frame.exposure + behind), 1.0);
+}
+
+@fragment
+fn background(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    return vec4f(tone_curve(gradient(pixel.y)), 1.0);
+}
+
+fn gradient(y: f32) -> vec3f {
+    return mix(frame.background_top, frame.background_bottom, y / frame.size.y);
 }
 
 // Display values, 0 to 1 as the picture stores them, go through unchanged: the target's format

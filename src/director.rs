@@ -13,13 +13,13 @@ use crate::frame::plan::View;
 use crate::frame::state::Winding;
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::validate::{Fault, validate};
-use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, Gather, Step};
+use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, Gather, Step, Target};
 use crate::geometry::Aabb;
 use crate::geometry::frustum::{NearPyramid, screen_rect};
 use crate::scene::area::sequence;
 use crate::scene::pose::pose;
 use crate::scene::{Pose, Sampling, Scene};
-use crate::settings::{MAX_FRAMES, Settings, Show, Technique};
+use crate::settings::{Accumulation, MAX_FRAMES, Settings, Show, Technique};
 use crate::techniques::{self, Caster, counting, show, surfaces};
 
 /// Why a frame cannot be planned: one line each.
@@ -115,7 +115,7 @@ pub fn stage_frame(
 
 /// The frame, in order: ambient light and depth; then light by light, volumes into the stencil and
 /// light where the count is zero; then what is blended, what is shown of the inner works, and the
-/// picture.
+/// picture. A frame of one light at most goes a shorter way: depth, volumes, and each surface once.
 #[must_use]
 pub fn plan(
     settings: &Settings,
@@ -158,6 +158,12 @@ pub fn plan(
                     lights.push((light, scissor, frame.count(light)));
                 }
             }
+            let transparent = surfaces::transparent(scene, pose, &frame.plan.views[0], whole);
+            if lights.len() <= 1 && transparent.is_empty() && frame.may_draw_directly() {
+                let only = lights.pop().map(|(light, _, count)| (light, count));
+                frame.draw_directly(only, &groups);
+                return frame.plan;
+            }
             let mut stored = lights.first().map_or(0, |(_, _, count)| count.base);
             frame.clear_all([0.0; 4], stored);
             frame.extend(surfaces::ambient(&groups, whole));
@@ -180,7 +186,7 @@ pub fn plan(
                     &frame.reached(light),
                 ));
             }
-            frame.extend(surfaces::transparent(scene, pose, &frame.plan.views[0], whole));
+            frame.extend(transparent);
             match settings.show {
                 Show::Volumes => {
                     frame.plan_glass(settings.light);
@@ -246,6 +252,35 @@ impl<'a> Frame<'a> {
 
     fn whole(&self) -> [u32; 4] {
         [0, 0, self.plan.size[0], self.plan.size[1]]
+    }
+
+    /// Whether the settings leave nothing to accumulate but light.
+    fn may_draw_directly(&self) -> bool {
+        let plan = &self.plan;
+        let in_floats = plan.accumulation == Accumulation::Float;
+        self.settings.show == Show::Final && plan.samples == 1 && plan.gather.is_none() && in_floats
+    }
+
+    /// The frame of one light at most, with nothing blended: depth, the count, and then every surface
+    /// once, in its final colour. Nothing is accumulated, so the linear target is not used at all.
+    fn draw_directly(&mut self, only: Option<(usize, counting::LightCount)>, groups: &[surfaces::SurfaceGroup]) {
+        let whole = self.whole();
+        let (light, count) = only.map_or((None, counting::LightCount::default()), |(light, count)| (Some(light), count));
+        self.clear_all([0.0, 0.0, 0.0, 1.0], count.base);
+        self.extend(surfaces::depth(groups, whole));
+        let shadowed = count.base != 0 || !count.steps.is_empty();
+        for step in count.steps {
+            self.push(Step { action: step.action.onto(Target::Direct), ..step });
+        }
+        let reached = light.map(|light| self.reached(light)).unwrap_or_default();
+        let only = light.map(|light| surfaces::OnlyLight {
+            light,
+            shape: (&self.pose.lights[light]).into(),
+            reached: &reached,
+            budget: shadowed.then_some(self.plan.budget),
+        });
+        self.extend(surfaces::finished(groups, only.as_ref(), whole));
+        self.push(show::background(whole));
     }
 
     /// The pixels a light can reach (L "Scissor Optimization"); `None` where its range is off screen.

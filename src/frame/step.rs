@@ -39,6 +39,17 @@ pub struct Clear {
     pub stencil: Option<u8>,
 }
 
+impl Action {
+    /// The same, drawn to another target.
+    #[must_use]
+    pub fn onto(mut self, target: Target) -> Self {
+        if let Self::Draw(draw) = &mut self {
+            draw.target = target;
+        }
+        self
+    }
+}
+
 /// A draw: program, state, and what is drawn.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Draw {
@@ -72,6 +83,8 @@ pub struct Look {
     pub glossy: bool,
     /// The shape of the light.
     pub light: LightShape,
+    /// The colour is the picture's: ambient light is in it, exposure and tone curve are done.
+    pub finished: bool,
 }
 
 /// The shape of a light, without its numbers.
@@ -110,12 +123,18 @@ pub enum Target {
     Mean,
     /// The picture itself; the scene's targets are read, or the mean in their place.
     Output,
+    /// The picture itself, under the scene's depth and stencil: for frames that need no accumulation.
+    Direct,
 }
 
 /// Which shaders a step runs; [`crate::gpu::shaders`] says where each is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Program {
+    /// Surfaces without colour, for their depth.
+    Depth,
+    /// The same, with fragments below the alpha cutoff left out.
+    DepthMasked,
     /// Surfaces in ambient and emitted light.
     Ambient,
     /// The same, with fragments below the alpha cutoff left out.
@@ -138,6 +157,8 @@ pub enum Program {
     StencilColors,
     /// Full screen: the gradient behind everything, exposure and tone curve.
     ToneMap,
+    /// Full screen: the gradient alone, through the tone curve.
+    Background,
     /// Full screen: display values as they are.
     Copy,
     /// Shadow volumes, no colour, faces seen from the front only.

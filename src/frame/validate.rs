@@ -46,7 +46,7 @@ pub fn validate(plan: &FramePlan) -> Result<(), Fault> {
         }
     }
     match plan.steps.last() {
-        Some(_) if state.output_begun => Ok(()),
+        Some(_) if state.output_begun || state.direct => Ok(()),
         last => Err(Fault {
             step: plan.steps.len().saturating_sub(1),
             label: last.map(|step| step.label.clone()).unwrap_or_default(),
@@ -63,6 +63,8 @@ struct Progress {
     counting: bool,
     gathered: bool,
     output_begun: bool,
+    /// The picture is drawn directly, under the scene's depth and stencil.
+    direct: bool,
 }
 
 fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(), &'static str> {
@@ -90,8 +92,10 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
             }
             return Ok(());
         }
-        Target::Scene if state.gathered => return Err("it draws the scene after the frame joined the mean"),
-        Target::Scene if state.output_begun => return Err("it draws the scene after the picture has begun"),
+        Target::Scene | Target::Direct if state.gathered => return Err("it draws the scene after the frame joined the mean"),
+        Target::Direct if plan.samples != 1 => return Err("the picture has one sample a pixel"),
+        Target::Direct => state.direct = true,
+        Target::Scene if state.output_begun || state.direct => return Err("it draws the scene after the picture has begun"),
         Target::Scene => {}
     }
     if !(state.color_set && state.depth_set) {

@@ -97,7 +97,7 @@ fn passes(plan: &FramePlan) -> Vec<Pass<'_>> {
             }
             Action::Draw(draw) => {
                 // The mean's and the picture's own passes clear nothing of the scene's.
-                if let Some(clear) = pending.take_if(|_| draw.target != Target::Scene) {
+                if let Some(clear) = pending.take_if(|_| matches!(draw.target, Target::Mean | Target::Output)) {
                     passes.push(Pass { target: Target::Scene, clear, draws: Vec::new() });
                 }
                 let joins = pending.is_none() && passes.last().is_some_and(|pass| pass.target == draw.target);
@@ -147,13 +147,14 @@ impl Encode<'_> {
     ) -> wgpu::RenderPass<'e> {
         let store = wgpu::StoreOp::Store;
         match pass.target {
-            Target::Scene => {
+            Target::Scene | Target::Direct => {
                 let color =
                     pass.clear.color.map(|[r, g, b, a]| wgpu::Color { r: r.into(), g: g.into(), b: b.into(), a: a.into() });
+                let in_scene = pass.target == Target::Scene;
                 encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                    label: Some("scene"),
+                    label: Some(if in_scene { "scene" } else { "picture, under the scene's depth" }),
                     color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                        view: &self.targets.color,
+                        view: if in_scene { &self.targets.color } else { self.output },
                         depth_slice: None,
                         resolve_target: self.targets.resolved.as_ref().filter(|_| resolve),
                         ops: wgpu::Operations { load: load(color), store },
@@ -199,7 +200,7 @@ impl Encode<'_> {
         match &draw.set {
             DrawSet::FullScreen => {
                 let read = match (draw.target, self.mean(plan)) {
-                    (Target::Scene, _) => None,
+                    (Target::Scene | Target::Direct, _) => None,
                     (_, None) => Some(&self.targets.read),
                     (Target::Mean, Some(mean)) => Some(&mean.gather),
                     (Target::Output, Some(mean)) => Some(&mean.read),

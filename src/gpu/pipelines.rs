@@ -205,7 +205,7 @@ impl Pipelines {
         let format = match key.target {
             Target::Scene => color_format(key.accumulation),
             Target::Mean => MEAN_FORMAT,
-            Target::Output => key.output,
+            Target::Direct | Target::Output => key.output,
         };
         let targets = [Some(wgpu::ColorTargetState {
             format,
@@ -215,7 +215,7 @@ impl Pipelines {
         let constants = constants(entry.overrides, key);
         let compilation_options =
             || wgpu::PipelineCompilationOptions { constants: &constants, ..wgpu::PipelineCompilationOptions::default() };
-        let in_scene = key.target == Target::Scene;
+        let in_scene = matches!(key.target, Target::Scene | Target::Direct);
         context.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(entry.fragment),
             layout: Some(layout),
@@ -272,6 +272,7 @@ fn constants(overrides: &[Override], Key { look, state, .. }: &Key) -> Vec<(&'st
             };
             ("LIGHT_KIND", kind)
         }
+        Override::Finished => ("FINISHED", f64::from(u8::from(look.finished))),
     };
     overrides.iter().map(|&it| value(it)).collect()
 }
@@ -307,7 +308,7 @@ fn vertex_buffers(vertices: Vertices) -> &'static [Option<wgpu::VertexBufferLayo
     match vertices {
         Vertices::None => &[],
         Vertices::Surface => &[Some(POSITION), Some(ATTRIBUTES)],
-        Vertices::Edges => &[Some(POSITION)],
+        Vertices::Positions | Vertices::Edges => &[Some(POSITION)],
         Vertices::Volume => &[Some(VOLUME)],
     }
 }

@@ -11,11 +11,13 @@ use super::context::GpuError;
 use crate::frame::Program;
 
 /// The files as they were when the program was built.
-const EMBEDDED: [(&str, &str); 11] = [
+const EMBEDDED: &[(&str, &str)] = &[
     ("shared/frame.wgsl", include_str!("../../shaders/shared/frame.wgsl")),
     ("shared/surface.wgsl", include_str!("../../shaders/shared/surface.wgsl")),
     ("shared/full_screen.wgsl", include_str!("../../shaders/shared/full_screen.wgsl")),
+    ("shared/tone.wgsl", include_str!("../../shaders/shared/tone.wgsl")),
     ("shared/volume.wgsl", include_str!("../../shaders/shared/volume.wgsl")),
+    ("depth.wgsl", include_str!("../../shaders/depth.wgsl")),
     ("ambient.wgsl", include_str!("../../shaders/ambient.wgsl")),
     ("lit.wgsl", include_str!("../../shaders/lit.wgsl")),
     ("transparent.wgsl", include_str!("../../shaders/transparent.wgsl")),
@@ -32,6 +34,8 @@ pub enum Vertices {
     None,
     /// Positions and attributes of a mesh.
     Surface,
+    /// Positions of a mesh.
+    Positions,
     /// Positions of a mesh, as line ends.
     Edges,
     /// Welded positions twice, with w = 1 and w = 0.
@@ -66,6 +70,8 @@ pub enum Override {
     BothSides,
     /// `LIGHT_KIND`: the shape of the one light.
     LightKind,
+    /// `FINISHED`: the colour is the picture's own.
+    Finished,
 }
 
 const fn entry(
@@ -81,13 +87,18 @@ const fn entry(
 
 /// What `shared/surface.wgsl` declares.
 const SURFACE: &[Override] = &[Override::Textured, Override::Glossy, Override::BothSides];
-/// And `lit.wgsl` beside it.
-const LIT: &[Override] = &[Override::Textured, Override::Glossy, Override::BothSides, Override::LightKind];
+/// And `ambient.wgsl` beside it.
+const AMBIENT: &[Override] = &[Override::Textured, Override::Glossy, Override::BothSides, Override::Finished];
+/// And `lit.wgsl`.
+const LIT: &[Override] =
+    &[Override::Textured, Override::Glossy, Override::BothSides, Override::LightKind, Override::Finished];
 
 /// Every program, in the order of the enum.
-pub const PROGRAMS: [Entry; 14] = [
-    entry(Program::Ambient, "ambient.wgsl", "surface_vertex", "ambient", Vertices::Surface, SURFACE),
-    entry(Program::AmbientMasked, "ambient.wgsl", "surface_vertex", "ambient_masked", Vertices::Surface, SURFACE),
+pub const PROGRAMS: &[Entry] = &[
+    entry(Program::Depth, "depth.wgsl", "depth_vertex", "depth", Vertices::Positions, &[]),
+    entry(Program::DepthMasked, "depth.wgsl", "surface_vertex", "depth_masked", Vertices::Surface, SURFACE),
+    entry(Program::Ambient, "ambient.wgsl", "surface_vertex", "ambient", Vertices::Surface, AMBIENT),
+    entry(Program::AmbientMasked, "ambient.wgsl", "surface_vertex", "ambient_masked", Vertices::Surface, AMBIENT),
     entry(Program::Lit, "lit.wgsl", "surface_vertex", "lit", Vertices::Surface, LIT),
     entry(Program::Volume, "volume.wgsl", "volume_vertex", "volume_count", Vertices::Volume, &[]),
     entry(Program::VolumeGlass, "volume.wgsl", "volume_vertex", "volume_glass", Vertices::Volume, &[]),
@@ -97,6 +108,7 @@ pub const PROGRAMS: [Entry; 14] = [
     entry(Program::Gather, "output.wgsl", "full_screen_vertex", "gather", Vertices::None, &[]),
     entry(Program::StencilColors, "output.wgsl", "full_screen_vertex", "stencil_colors", Vertices::None, &[]),
     entry(Program::ToneMap, "output.wgsl", "full_screen_vertex", "tone_map", Vertices::None, &[]),
+    entry(Program::Background, "output.wgsl", "full_screen_vertex", "background", Vertices::None, &[]),
     entry(Program::Copy, "output.wgsl", "full_screen_vertex", "copy", Vertices::None, &[]),
     entry(Program::VolumeFronts, "volume.wgsl", "volume_vertex", "volume_count_fronts", Vertices::Volume, &[]),
     entry(Program::VolumeBacks, "volume.wgsl", "volume_vertex", "volume_count_backs", Vertices::Volume, &[]),

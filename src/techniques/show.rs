@@ -98,6 +98,22 @@ pub fn tone_map(scissor: [u32; 4]) -> Step {
     )
 }
 
+/// The gradient where no surface is, for frames whose surfaces are drawn in their final colour.
+#[must_use]
+pub fn background(scissor: [u32; 4]) -> Step {
+    let mut step = full_screen(
+        "background",
+        "Fills in the background, through the tone curve, where depth is still at infinity.",
+        Program::Background,
+        scissor,
+    );
+    if let Action::Draw(draw) = &mut step.action {
+        draw.target = Target::Direct;
+        draw.state.depth = Depth::SAME_SURFACE;
+    }
+    step
+}
+
 /// Display values as they are, for pictures that other programs read.
 #[must_use]
 pub fn copy(scissor: [u32; 4]) -> Step {

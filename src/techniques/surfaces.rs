@@ -61,7 +61,7 @@ fn described<'a>(scene: &'a Scene, pose: &'a Pose, view: &'a View) -> impl Itera
                 look: Look {
                     textured: material.base_color_texture.is_some(),
                     glossy: material.roughness < MATT || material.metallic > 0.0,
-                    light: LightShape::default(),
+                    ..Look::default()
                 },
             };
             (kind, material.alpha, Surface { instance, primitive })
@@ -99,6 +99,85 @@ pub fn ambient(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
     };
     let why = "Draws every surface in ambient and emitted light and lays the depth that all later steps are tested against.";
     groups.iter().map(|group| step(format!("ambient{}", group.words()), why, draw(group))).collect()
+}
+
+/// Depth alone, of every surface.
+#[must_use]
+pub fn depth(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
+    let draw = |group: &SurfaceGroup| Draw {
+        program: if group.kind.masked { Program::DepthMasked } else { Program::Depth },
+        look: Look { textured: group.kind.masked && group.kind.look.textured, ..Look::default() },
+        target: Target::Direct,
+        state: State {
+            depth: Depth::LAY,
+            stencil: StencilState::IGNORE,
+            color: None,
+            cull: group.kind.cull,
+            winding: group.kind.winding,
+            near_plane: NearPlane::Clip,
+        },
+        stencil_reference: 0,
+        scissor,
+        light: None,
+        constant: [0.0; 4],
+        set: DrawSet::Surfaces(group.surfaces.clone()),
+    };
+    let why = "Lays the depth that all later steps are tested against; colour waits until the count is known.";
+    groups.iter().map(|group| step(format!("depth{}", group.words()), why, draw(group))).collect()
+}
+
+/// Where and to what a frame's only light is added.
+#[derive(Debug)]
+pub struct OnlyLight<'a> {
+    /// An index into the scene's lights.
+    pub light: usize,
+    /// Its shape.
+    pub shape: LightShape,
+    /// Which instances it may reach.
+    pub reached: &'a [bool],
+    /// How the stencil tells lit from shadow; `None` where no surface is in shadow.
+    pub budget: Option<BitBudget>,
+}
+
+/// Every surface in its final colour, drawn once: in ambient light and `only` light where its count
+/// is zero, in ambient light alone elsewhere.
+#[must_use]
+pub fn finished(groups: &[SurfaceGroup], only: Option<&OnlyLight<'_>>, scissor: [u32; 4]) -> Vec<Step> {
+    let mut steps = Vec::new();
+    for group in groups {
+        let mut draw = |words: &str, why: &str, surfaces: &[Surface], lit: Option<&OnlyLight<'_>>, stencil| {
+            if surfaces.is_empty() {
+                return;
+            }
+            let look = Look { light: lit.map(|lit| lit.shape).unwrap_or_default(), finished: true, ..group.kind.look };
+            let draw = Draw {
+                program: if lit.is_some() { Program::Lit } else { Program::Ambient },
+                look,
+                target: Target::Direct,
+                state: group.again(Blend::Replace, stencil),
+                stencil_reference: 0,
+                scissor,
+                light: lit.map(|lit| lit.light),
+                constant: [0.0; 4],
+                set: DrawSet::Surfaces(surfaces.to_vec()),
+            };
+            steps.push(step(format!("{words}{}", group.words()), why, draw));
+        };
+        let (near, far): (Vec<_>, Vec<_>) =
+            group.surfaces.iter().copied().partition(|surface| only.is_some_and(|only| only.reached[surface.instance]));
+        if let Some(only) = only {
+            let label = |words: &str| format!("light {}: {words}", only.light);
+            let lit = only.budget.map_or(StencilState::IGNORE, StencilState::count_equals);
+            let why = "Ambient light and this one, through the tone curve, where no volume holds the surface.";
+            draw(&label("lit"), why, &near, Some(only), lit);
+            if let Some(budget) = only.budget {
+                let why = "Ambient light alone, through the tone curve, where a volume holds the surface.";
+                draw(&label("shadow"), why, &near, None, StencilState::count_differs(budget));
+            }
+        }
+        draw("ambient", "Ambient light alone, through the tone curve: no light reaches here.", &far, None, StencilState::IGNORE);
+    }
+    steps
 }
 
 /// One light, added where its count is zero, to the surfaces that `reached` says it may reach.
