@@ -20,7 +20,7 @@ use crate::scene::area::sequence;
 use crate::scene::pose::pose;
 use crate::scene::{Pose, Sampling, Scene};
 use crate::settings::{Accumulation, MAX_FRAMES, Settings, Show, Technique};
-use crate::techniques::{self, Caster, counting, show, surfaces};
+use crate::techniques::{self, Caster, counting, labels, show, surfaces};
 
 /// Why a frame cannot be planned: one line each.
 #[derive(Debug, Error)]
@@ -162,6 +162,7 @@ pub fn plan(
             if lights.len() <= 1 && transparent.is_empty() && frame.may_draw_directly() {
                 let only = lights.pop().map(|(light, _, count)| (light, count));
                 frame.draw_directly(only, &groups);
+                frame.label(Target::Direct);
                 return frame.plan;
             }
             let mut stored = lights.first().map_or(0, |(_, _, count)| count.base);
@@ -199,6 +200,7 @@ pub fn plan(
                 frame.push(show::gather(gather, whole));
             }
             frame.push(show::tone_map(whole));
+            frame.label(Target::Output);
         }
     }
     frame.plan
@@ -341,6 +343,20 @@ impl<'a> Frame<'a> {
     fn plan_glass(&mut self, light: usize) {
         if !self.plan.volumes.iter().any(|volume| volume.light == light) {
             self.count_by(techniques::row(Technique::ZPass), light);
+        }
+    }
+
+    /// Names, where they are asked for, over the finished picture.
+    fn label(&mut self, target: Target) {
+        if !self.settings.lighting.labels {
+            return;
+        }
+        let (labels, left_out) = labels::labels(self.scene, self.pose, self.plan.views[0].camera, self.plan.size);
+        if left_out > 0 {
+            self.plan.notes.push(format!("{left_out} names have no room in the picture"));
+        }
+        if !labels.is_empty() {
+            self.push(labels::step(labels, target, self.whole()));
         }
     }
 

@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3};
 use image::RgbaImage;
 use obscura::director::{StageError, frames, stage, stage_frame};
 use obscura::frame::validate::validate;
-use obscura::frame::{Action, Capabilities, Gather, Program, Target};
+use obscura::frame::{Action, Capabilities, DrawSet, Gather, Label, Program, Target};
 use obscura::gpu::readback;
 use obscura::scene::{Environment, Extent, LightKind, Scene, Texture, Wrap};
 use obscura::settings::{Accumulation, LightEdit, Lighting, Settings, Show, SlideChoice};
@@ -254,4 +254,48 @@ fn eight_bits_band_and_lose_dim_lights() {
     let bits = stage.shoot(&in_bits(&settings), &many).image;
     let brightest = |image: &RgbaImage| image.pixels().map(|pixel| pixel.0[0]).max().unwrap();
     assert!(brightest(&float) > 20 && brightest(&bits) == 0, "{} and {}", brightest(&float), brightest(&bits));
+}
+
+/// Names are in the picture, on their plates and nowhere else, and the same every time.
+#[test]
+fn names_are_drawn_over_the_picture() {
+    let (mut scene, settings) = soft();
+    scene.nodes[1].name = "a cube".into();
+    scene.lights[0].name = "l\u{e4}mp".into();
+    let named = Settings { lighting: Lighting { labels: true, ..settings.lighting }, ..settings.clone() };
+    let camera = glam::DVec3::new(0.0, 6.0, 16.0);
+    let far = |settings: &Settings| Settings {
+        camera: obscura::settings::CameraChoice::Free { eye: camera, target: DVec3::new(0.0, 4.0, 0.0) },
+        ..settings.clone()
+    };
+    let mut stage = Stage::new();
+    stage.set_scene(&scene);
+    let plain = stage.shoot(&far(&settings), &scene);
+    let shot = stage.shoot(&far(&named), &scene);
+    let (step, draw) = shot.plan.draws().last().unwrap();
+    let DrawSet::Labels(labels) = &draw.set else { panic!("{} comes last", step.label) };
+    assert_eq!(labels.iter().map(|label| label.text.as_str()).collect::<Vec<_>>(), ["l\u{e4}mp", "a cube"]);
+
+    let rects = |label: &Label| [label.plate, [label.anchor[0] - 3.0, label.anchor[1] - 3.0, 6.0, 6.0]];
+    let inside = |x: u32, y: u32, [left, top, width, height]: [f32; 4]| {
+        let (x, y) = (x as f32 + 0.5, y as f32 + 0.5);
+        x > left && y > top && x < left + width && y < top + height
+    };
+    for (x, y, pixel) in shot.image.enumerate_pixels() {
+        if !labels.iter().flat_map(rects).any(|rect| inside(x, y, rect)) {
+            assert_eq!(pixel, plain.image.get_pixel(x, y), "beside all names, at {x}, {y}");
+        }
+    }
+    for label in labels {
+        // The letters are bright, and begin and end near the plate's ends.
+        let bright = |x: u32, y: u32| inside(x, y, label.plate) && shot.image.get_pixel(x, y).0[0] > 150;
+        let lit: Vec<_> = shot.image.enumerate_pixels().filter(|(x, y, _)| bright(*x, *y)).map(|(x, ..)| x as f32).collect();
+        assert!(lit.len() > 20, "{}: {}", label.text, lit.len());
+        let (first, last) = lit.iter().fold((f32::MAX, 0.0f32), |(first, last), x| (first.min(*x), last.max(*x)));
+        let [left, _, width, _] = label.plate;
+        assert!(first - left < 8.0 && left + width - last < 9.0, "{}: {first} to {last} of {:?}", label.text, label.plate);
+    }
+    assert!(stage.shoot(&far(&named), &scene).image == shot.image);
+    let exact = Settings { show: Show::Shadow, ..far(&named) };
+    assert!(stage.shoot(&exact, &scene).plan.draws().all(|(_, draw)| draw.program != Program::Labels), "not over exact values");
 }

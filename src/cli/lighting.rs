@@ -24,7 +24,7 @@ pub(super) struct LightingArguments {
     #[arg(long, hide = true, value_name = "T", help = format!("How often surfaces are textured: {}", names(Texturing::ALL.map(Texturing::name))))]
     texturing: Option<String>,
     /// Writes the names of lights and of what casts shadows into the picture
-    #[arg(long, hide = true)]
+    #[arg(long)]
     labels: bool,
 }
 

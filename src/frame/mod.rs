@@ -15,4 +15,6 @@ pub mod validate;
 pub use camera::{Camera, CameraError};
 pub use capabilities::{Capabilities, Lack};
 pub use plan::{Cutout, CutoutShape, FramePlan, Gather, Method, Reason, View, VolumePlan};
-pub use step::{Action, Clear, Draw, DrawSet, LightShape, Look, Part, Program, Step, Surface, Target, VolumePart};
+pub use step::{
+    Action, Clear, Draw, DrawSet, Label, LabelKind, LightShape, Look, Part, Program, Step, Surface, Target, VolumePart,
+};

@@ -165,6 +165,8 @@ pub enum Program {
     VolumeFronts,
     /// Shadow volumes, no colour, faces seen from behind only.
     VolumeBacks,
+    /// Names on their plates.
+    Labels,
 }
 
 /// What a step draws, by number.
@@ -179,6 +181,33 @@ pub enum DrawSet {
     Volumes(Vec<VolumePart>),
     /// All edges of these instances, numbered as [`Surface::instance`].
     Edges(Vec<usize>),
+    /// Names over the finished picture.
+    Labels(Vec<Label>),
+}
+
+/// A name at its place in the picture. Places and sizes in pixels from the upper left.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Label {
+    /// What is written.
+    pub text: String,
+    /// What is named.
+    pub kind: LabelKind,
+    /// Where that is.
+    pub anchor: [f32; 2],
+    /// The plate that bears the text: left, top, width, height.
+    pub plate: [f32; 4],
+    /// The size of the letters.
+    pub text_size: f32,
+}
+
+/// What a name is the name of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LabelKind {
+    /// A light.
+    Light,
+    /// Something that casts shadows.
+    Caster,
 }
 
 /// One primitive of one instance.

@@ -113,6 +113,10 @@ fn contents(set: &DrawSet) -> String {
             let list: Vec<_> = by_volume.iter().map(|(volume, parts)| format!("{volume} ({})", parts.join(", "))).collect();
             format!("volumes {}", list.join(" "))
         }
+        DrawSet::Labels(labels) => {
+            let list: Vec<_> = labels.iter().map(|label| format!("{:?}", label.text)).collect();
+            format!("names {}", list.join(" "))
+        }
         DrawSet::Edges(instances) => format!("edges of {} instances", instances.len()),
     }
 }

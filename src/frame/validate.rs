@@ -87,8 +87,9 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
             if draw.state.stencil.tests() || draw.state.stencil.writes() {
                 return Err("the picture itself has no stencil");
             }
-            if !matches!(draw.set, DrawSet::FullScreen) {
-                return Err("only full-screen steps draw the picture");
+            let over_it = draw.target == Target::Output && matches!(draw.set, DrawSet::Labels(_));
+            if !over_it && !matches!(draw.set, DrawSet::FullScreen) {
+                return Err("only full-screen steps and names draw the picture");
             }
             return Ok(());
         }
@@ -113,6 +114,9 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
     }
     if draw.state.depth.write && state.counting {
         return Err("it writes depth after counting began: the count would belong to another surface");
+    }
+    if matches!(draw.set, DrawSet::Labels(_)) && draw.target == Target::Scene {
+        return Err("names belong over the picture, not into the scene");
     }
     if let DrawSet::Volumes(parts) = &draw.set {
         state.counting |= stencil.writes();

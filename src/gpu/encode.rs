@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::frame_buffers::{DRAW_STRIDE, FrameBuffers};
+use super::labels::Labels;
 use super::pipelines::{Key, Pipelines};
 use super::scene_buffers::SceneBuffers;
 use super::targets::{Mean, Targets};
@@ -16,6 +17,7 @@ pub struct Encode<'a> {
     pub pipelines: &'a mut Pipelines,
     pub buffers: &'a mut SceneBuffers,
     pub frame: &'a FrameBuffers,
+    pub labels: &'a Labels,
     pub targets: &'a Targets,
     pub output: &'a wgpu::TextureView,
     pub format: wgpu::TextureFormat,
@@ -213,6 +215,7 @@ impl Encode<'_> {
             }
             DrawSet::Surfaces(surfaces) => self.record_surfaces(pass, scene, surfaces, drawn),
             DrawSet::Volumes(parts) => self.record_volumes(pass, plan, scene, parts, drawn),
+            DrawSet::Labels(_) => self.record_labels(pass, drawn),
             DrawSet::Edges(instances) => self.record_edges(pass, scene, instances, drawn),
         }
     }
@@ -278,6 +281,16 @@ impl Encode<'_> {
             drawn.triangles += triangles;
             drawn.volume_triangles += triangles;
         }
+    }
+
+    fn record_labels(&self, pass: &mut wgpu::RenderPass<'_>, drawn: &mut Drawn) {
+        let Some(labels) = self.labels.get() else { return };
+        pass.set_bind_group(1, labels.atlas, &[]);
+        pass.set_vertex_buffer(0, labels.vertices.slice(..));
+        pass.set_index_buffer(labels.indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.draw_indexed(0..labels.index_count, 0, 0..1);
+        drawn.draws += 1;
+        drawn.triangles += u64::from(labels.index_count / 3);
     }
 
     fn record_edges(&self, pass: &mut wgpu::RenderPass<'_>, scene: &Scene, shown: &[usize], drawn: &mut Drawn) {

@@ -59,12 +59,13 @@ pub struct Growing {
 }
 
 impl Growing {
-    fn new(label: &'static str, usage: wgpu::BufferUsages) -> Self {
+    /// A buffer yet to be made.
+    pub fn new(label: &'static str, usage: wgpu::BufferUsages) -> Self {
         Self { label, usage: usage | wgpu::BufferUsages::COPY_DST, buffer: None }
     }
 
     /// Writes `bytes`; true where the buffer was made anew.
-    fn write(&mut self, context: &Context, bytes: &[u8], least: usize) -> bool {
+    pub fn write(&mut self, context: &Context, bytes: &[u8], least: usize) -> bool {
         let needed = bytes.len().max(least).next_multiple_of(16) as u64;
         let grown = self.buffer.as_ref().is_none_or(|buffer| buffer.size() < needed);
         if grown {

@@ -7,6 +7,7 @@ pub mod context;
 mod cutouts;
 mod encode;
 mod frame_buffers;
+mod labels;
 pub mod pipelines;
 pub mod readback;
 mod scene_buffers;
@@ -24,6 +25,7 @@ use serde::Serialize;
 
 pub use context::{Context, GpuError};
 use frame_buffers::FrameBuffers;
+use labels::Labels;
 use pipelines::Pipelines;
 use scene_buffers::SceneBuffers;
 use shaders::Library;
@@ -60,6 +62,7 @@ pub struct Renderer {
     samplers: Samplers,
     scene: Option<SceneBuffers>,
     frame: FrameBuffers,
+    labels: Labels,
     targets: Option<Targets>,
     timing: Timing,
 }
@@ -83,6 +86,7 @@ impl Renderer {
             samplers: Samplers::default(),
             scene: None,
             frame: FrameBuffers::default(),
+            labels: Labels::default(),
             targets: None,
             timing: Timing::new(context),
         })
@@ -134,12 +138,15 @@ impl Renderer {
         }
         self.frame.write(context, &self.pipelines.frame_layout, buffers, plan, scene, pose)?;
 
+        self.labels.write(context, &self.pipelines.labels_layout, plan);
+
         let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         let work = encode::Encode {
             context,
             pipelines: &mut self.pipelines,
             buffers,
             frame: &self.frame,
+            labels: &self.labels,
             targets,
             output,
             format,

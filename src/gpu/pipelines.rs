@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::context::{Context, DEPTH_FORMAT, GpuError, MEAN_FORMAT, color_format};
 use super::shaders::{Library, Override, Vertices, entry_of};
-use super::types::{Attributes, Draw, Frame, Light, Material, Object, Volume};
+use super::types::{Attributes, Draw, Frame, LabelVertex, Light, Material, Object, Volume};
 use crate::frame::state::{Blend, Compare, Cull, DepthBias, NearPlane, State, Winding};
 use crate::frame::stencil::{StencilFace, StencilOp};
 use crate::frame::{LightShape, Look, Program, Target};
@@ -37,9 +37,12 @@ pub struct Pipelines {
     pub material_layout: wgpu::BindGroupLayout,
     /// Group 1 of the full-screen programs: scene colour or a mean in its place, stencil, the mean before.
     pub targets_layout: wgpu::BindGroupLayout,
+    /// Group 1 of names: the atlas of glyphs.
+    pub labels_layout: wgpu::BindGroupLayout,
     bare: wgpu::PipelineLayout,
     surface: wgpu::PipelineLayout,
     picture: wgpu::PipelineLayout,
+    labels: wgpu::PipelineLayout,
     modules: HashMap<&'static str, wgpu::ShaderModule>,
     made: HashMap<Key, wgpu::RenderPipeline>,
 }
@@ -128,6 +131,7 @@ impl Pipelines {
                 sampled(2, wgpu::TextureSampleType::Float { filterable: false }),
             ],
         );
+        let labels_layout = layout("glyphs", &[sampled(0, wgpu::TextureSampleType::Float { filterable: false })]);
         let pipeline_layout = |label, groups: &[&wgpu::BindGroupLayout]| {
             let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
             device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -141,6 +145,8 @@ impl Pipelines {
             bare: pipeline_layout("bare", &[&frame_layout]),
             surface: pipeline_layout("surface", &[&frame_layout, &material_layout]),
             picture: pipeline_layout("picture", &[&frame_layout, &targets_layout]),
+            labels: pipeline_layout("labels", &[&frame_layout, &labels_layout]),
+            labels_layout,
             frame_layout,
             material_layout,
             targets_layout,
@@ -199,6 +205,7 @@ impl Pipelines {
         let module = &self.modules[entry.file];
         let layout = match (entry.vertices, key.target) {
             (Vertices::Surface, _) => &self.surface,
+            (Vertices::Labels, _) => &self.labels,
             (_, Target::Mean | Target::Output) => &self.picture,
             _ => &self.bare,
         };
@@ -305,7 +312,13 @@ fn vertex_buffers(vertices: Vertices) -> &'static [Option<wgpu::VertexBufferLayo
         step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &wgpu::vertex_attr_array![0 => Float32x4],
     };
+    const LABELS: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+        array_stride: size_of::<LabelVertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Float32x4],
+    };
     match vertices {
+        Vertices::Labels => &[Some(LABELS)],
         Vertices::None => &[],
         Vertices::Surface => &[Some(POSITION), Some(ATTRIBUTES)],
         Vertices::Positions | Vertices::Edges => &[Some(POSITION)],

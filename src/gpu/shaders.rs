@@ -24,6 +24,7 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("verdict.wgsl", include_str!("../../shaders/verdict.wgsl")),
     ("volume.wgsl", include_str!("../../shaders/volume.wgsl")),
     ("wireframe.wgsl", include_str!("../../shaders/wireframe.wgsl")),
+    ("labels.wgsl", include_str!("../../shaders/labels.wgsl")),
     ("output.wgsl", include_str!("../../shaders/output.wgsl")),
 ];
 
@@ -40,6 +41,8 @@ pub enum Vertices {
     Edges,
     /// Welded positions twice, with w = 1 and w = 0.
     Volume,
+    /// Corners of names' plates and letters.
+    Labels,
 }
 
 /// One program's shaders.
@@ -90,8 +93,7 @@ const SURFACE: &[Override] = &[Override::Textured, Override::Glossy, Override::B
 /// And `ambient.wgsl` beside it.
 const AMBIENT: &[Override] = &[Override::Textured, Override::Glossy, Override::BothSides, Override::Finished];
 /// And `lit.wgsl`.
-const LIT: &[Override] =
-    &[Override::Textured, Override::Glossy, Override::BothSides, Override::LightKind, Override::Finished];
+const LIT: &[Override] = &[Override::Textured, Override::Glossy, Override::BothSides, Override::LightKind, Override::Finished];
 
 /// Every program, in the order of the enum.
 pub const PROGRAMS: &[Entry] = &[
@@ -112,6 +114,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::Copy, "output.wgsl", "full_screen_vertex", "copy", Vertices::None, &[]),
     entry(Program::VolumeFronts, "volume.wgsl", "volume_vertex", "volume_count_fronts", Vertices::Volume, &[]),
     entry(Program::VolumeBacks, "volume.wgsl", "volume_vertex", "volume_count_backs", Vertices::Volume, &[]),
+    entry(Program::Labels, "labels.wgsl", "label_vertex", "label", Vertices::Labels, &[]),
 ];
 
 /// The entry of a program.

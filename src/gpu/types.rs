@@ -101,6 +101,18 @@ pub struct Draw {
     pub light: Light,
 }
 
+/// A corner of a name's plate or of one of its letters: `LabelVertex` of `labels.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
+pub struct LabelVertex {
+    /// Pixels from the upper left.
+    pub at: [f32; 2],
+    /// In the atlas, 0 to 1.
+    pub uv: [f32; 2],
+    /// Linear, premultiplied.
+    pub color: [f32; 4],
+}
+
 /// `struct Material` of `shared/surface.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]

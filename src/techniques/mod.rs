@@ -12,6 +12,7 @@ pub mod counting;
 mod cutout;
 mod exact_z_pass;
 mod flattened;
+pub mod labels;
 mod none;
 mod one_sided;
 mod parity;

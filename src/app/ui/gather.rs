@@ -22,6 +22,8 @@ pub fn gather(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
             if soft { format!(", {} points of each light with a size", done * lighting.area_samples) } else { String::new() };
         explain(ui, format!("{done} of {} frames gathered{points}.", gather.frames));
     }
+    let tip = "Names lights and what casts shadows, in the picture itself";
+    ui.checkbox(&mut lighting.labels, "Names in the picture").on_hover_text(tip);
     ui.horizontal(|ui| {
         ui.label(egui::RichText::new("Lights in").color(style::WEAK));
         for accumulation in Accumulation::ALL {
