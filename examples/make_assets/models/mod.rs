@@ -12,6 +12,7 @@ mod soup;
 mod stairs;
 mod teapot;
 mod texture;
+mod toys;
 
 /// Made anew each time, always the same.
 pub fn all() -> Vec<(&'static str, Vec<u8>)> {
@@ -23,6 +24,7 @@ pub fn all() -> Vec<(&'static str, Vec<u8>)> {
         ("architecture.glb", architecture::file()),
         ("furniture.glb", furniture::file()),
         ("walker.glb", figure::file()),
+        ("toys.glb", toys::file()),
         ("stairs.glb", stairs::file()),
     ]
 }

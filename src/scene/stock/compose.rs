@@ -27,7 +27,7 @@ pub(super) type Model = (&'static str, &'static [u8]);
 
 /// All of them.
 #[cfg(test)]
-pub(super) const MODELS: [Model; 8] = [SOLIDS, TEAPOT, CUTOUT, FLOORS, ARCHITECTURE, FURNITURE, WALKER, STAIRS];
+pub(super) const MODELS: [Model; 9] = [SOLIDS, TEAPOT, CUTOUT, FLOORS, ARCHITECTURE, FURNITURE, WALKER, STAIRS, TOYS];
 
 pub(super) const SOLIDS: Model = model!("solids");
 pub(super) const TEAPOT: Model = model!("teapot");
@@ -37,6 +37,7 @@ pub(super) const ARCHITECTURE: Model = model!("architecture");
 pub(super) const FURNITURE: Model = model!("furniture");
 pub(super) const WALKER: Model = model!("walker");
 pub(super) const STAIRS: Model = model!("stairs");
+pub(super) const TOYS: Model = model!("toys");
 
 /// Seconds the walker takes for two steps, as its model says.
 pub(super) const STRIDE_SECONDS: f64 = 1.16;
@@ -156,6 +157,18 @@ impl Composer {
         })
     }
 
+    /// The same shape with one of its primitives in another colour (linear).
+    pub(super) fn painted(&mut self, prop: Prop, primitive: usize, color: [f32; 3], roughness: f32) -> Prop {
+        let [r, g, b] = color;
+        let mut numbers = 0..;
+        self.remade(prop, |material| {
+            if numbers.next() == Some(primitive) {
+                material.base_color = Vec4::new(r, g, b, 1.0);
+                material.roughness = roughness;
+            }
+        })
+    }
+
     /// The same shape shining of itself; it casts no shadow: lights sit inside such things.
     pub(super) fn glowing(&mut self, prop: Prop, radiance: [f32; 3]) -> Prop {
         let prop = self.remade(prop, |material| {
@@ -165,7 +178,7 @@ impl Composer {
         Prop { casts_shadow: false, ..prop }
     }
 
-    fn remade(&mut self, prop: Prop, change: impl Fn(&mut Material)) -> Prop {
+    fn remade(&mut self, prop: Prop, mut change: impl FnMut(&mut Material)) -> Prop {
         let Some(mut mesh) = self.scene.meshes.get(prop.mesh).cloned() else { return prop };
         for primitive in &mut mesh.primitives {
             let mut material = self.scene.materials.get(primitive.material).cloned().unwrap_or_default();

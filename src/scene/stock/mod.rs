@@ -5,6 +5,8 @@ mod courtyard;
 mod cubes;
 mod eye_in_shadow;
 mod grid;
+mod hello2rts;
+mod shadowfun;
 mod stairs;
 mod teapots;
 #[cfg(test)]
@@ -54,6 +56,16 @@ pub static TABLE: &[StockScene] = &[
         name: "stairs",
         about: "a beacon on top of 264 steps: at their foot 256 shadow volumes lie one in another, and eight bits count to none (McGuire et al. 2003, image 3)",
         build: stairs::build,
+    },
+    StockScene {
+        name: "shadowfun",
+        about: "toys tumble before a wall, and a warm and a cool lamp throw each of them on it twice (Kilgard 1999, figure 11)",
+        build: shadowfun::build,
+    },
+    StockScene {
+        name: "hello2rts",
+        about: "solid letters over letters and balls, two lights: hello to real-time shadows (Kilgard 1999, figure 12)",
+        build: hello2rts::build,
     },
 ];
 
