@@ -19,7 +19,7 @@ use crate::geometry::frustum::{NearPyramid, screen_rect};
 use crate::scene::area::sequence;
 use crate::scene::pose::pose;
 use crate::scene::{Pose, Sampling, Scene};
-use crate::settings::{Accumulation, MAX_FRAMES, Settings, Show, Technique};
+use crate::settings::{Accumulation, MAX_FRAMES, Settings, Show, Technique, Texturing};
 use crate::techniques::{self, Caster, counting, labels, show, surfaces};
 
 /// Why a frame cannot be planned: one line each.
@@ -128,7 +128,7 @@ pub fn plan(
     let mut frame = Frame::new(settings, scene, pose, camera, capabilities);
     frame.plan.gather = gather;
     let whole = frame.whole();
-    let groups = surfaces::opaque_groups(scene, pose, &frame.plan.views[0], frame.plan.size);
+    let groups = surfaces::opaque_groups(scene, pose, &frame.plan.views[0], frame.plan.size, frame.texturing());
 
     match settings.show {
         Show::Stencil | Show::Shadow => {
@@ -187,6 +187,7 @@ pub fn plan(
                     &frame.reached(light),
                 ));
             }
+            frame.extend(surfaces::textures(&groups, whole));
             frame.extend(transparent);
             match settings.show {
                 Show::Volumes => {
@@ -260,7 +261,14 @@ impl<'a> Frame<'a> {
     fn may_draw_directly(&self) -> bool {
         let plan = &self.plan;
         let in_floats = plan.accumulation == Accumulation::Float;
-        self.settings.show == Show::Final && plan.samples == 1 && plan.gather.is_none() && in_floats
+        let textured = self.texturing() == Texturing::EachLight;
+        self.settings.show == Show::Final && plan.samples == 1 && plan.gather.is_none() && in_floats && textured
+    }
+
+    /// How often surfaces are textured: exact values have no light to be multiplied.
+    fn texturing(&self) -> Texturing {
+        let exact_values = matches!(self.settings.show, Show::Shadow | Show::Stencil);
+        if exact_values { Texturing::EachLight } else { self.settings.lighting.texturing }
     }
 
     /// The frame of one light at most, with nothing blended: depth, the count, and then every surface

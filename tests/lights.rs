@@ -12,7 +12,7 @@ use obscura::frame::validate::validate;
 use obscura::frame::{Action, Capabilities, DrawSet, Gather, Label, Program, Target};
 use obscura::gpu::readback;
 use obscura::scene::{Environment, Extent, LightKind, Scene, Texture, Wrap};
-use obscura::settings::{Accumulation, LightEdit, Lighting, Settings, Show, SlideChoice};
+use obscura::settings::{Accumulation, LightEdit, Lighting, Settings, Show, SlideChoice, Texturing};
 
 const SIZE: [u32; 2] = [160, 160];
 
@@ -298,4 +298,73 @@ fn names_are_drawn_over_the_picture() {
     assert!(stage.shoot(&far(&named), &scene).image == shot.image);
     let exact = Settings { show: Show::Shadow, ..far(&named) };
     assert!(stage.shoot(&exact, &scene).plan.draws().all(|(_, draw)| draw.program != Program::Labels), "not over exact values");
+}
+
+/// Two lights on a textured floor and ball; `roughness` below 1 gives them highlights.
+fn textured(roughness: f32) -> (Scene, Settings) {
+    let mut build = dark(Build::new());
+    let rgba = [[200, 40, 40, 255], [40, 200, 40, 255], [90, 90, 220, 255], [20, 20, 20, 255]].concat();
+    let texture = Texture { name: "tiles".into(), width: 2, height: 2, rgba, wrap: [Wrap::Repeat; 2], nearest: false };
+    build.0.textures.push(texture);
+    build.0.materials[0].base_color_texture = Some(0);
+    build.0.materials[0].roughness = roughness;
+    let corners = [[-8.0, 0.0, -8.0], [-8.0, 0.0, 8.0], [8.0, 0.0, 8.0], [8.0, 0.0, -8.0]];
+    let positions: Vec<Vec3> = corners.map(Vec3::from).to_vec();
+    let uvs = corners.map(|[x, _, z]: [f32; 3]| glam::Vec2::new(x, z) / 4.0).to_vec();
+    let floor = obscura::scene::Mesh::new(obscura::scene::MeshParts {
+        name: "floor".into(),
+        positions,
+        normals: None,
+        uvs: Some(uvs),
+        colors: None,
+        indices: vec![0, 1, 2, 0, 2, 3],
+        primitives: vec![obscura::scene::Primitive { first_index: 0, index_count: 6, material: 0, casts_shadow: false }],
+        skin: Vec::new(),
+        morphs: Vec::new(),
+        morph_weights: Vec::new(),
+    });
+    let floor = build.mesh(floor.unwrap());
+    build.place(floor, DVec3::ZERO, DVec3::ONE);
+    let solid = build.mesh(cube(1));
+    build.place(solid, DVec3::Y * 1.5, DVec3::splat(0.6));
+    build.point_light(DVec3::new(-2.0, 4.0, -3.0));
+    build.point_light(DVec3::new(3.0, 5.0, -2.0));
+    build.0.exposure = 0.4;
+    (build.0, seen_from(DVec3::new(0.0, 5.0, 9.0), DVec3::ZERO, SIZE))
+}
+
+/// M section 8: on matt surfaces the sum of all lights times the texture is the sum of each times the
+/// texture; highlights, which have no texture, are tinted by it.
+#[test]
+fn textures_once_are_the_same_on_matt_surfaces_and_tint_highlights() {
+    let mut stage = Stage::new();
+    let once = |settings: &Settings| Settings {
+        lighting: Lighting { texturing: Texturing::Once, ..settings.lighting },
+        ..settings.clone()
+    };
+    let (matt, settings) = textured(1.0);
+    stage.set_scene(&matt);
+    let each = stage.shoot(&settings, &matt);
+    let last = stage.shoot(&once(&settings), &matt);
+    assert!(levels(&each.image) > 500, "there is something to see");
+    // As in tests/goldens.rs: LEVELS of 255, EDGES of the pixels.
+    let differ = |a: &image::Rgba<u8>, b: &image::Rgba<u8>| (0..3).any(|i| a.0[i].abs_diff(b.0[i]) > 5);
+    let wrong = each.image.pixels().zip(last.image.pixels()).filter(|(a, b)| differ(a, b)).count();
+    assert!(wrong as f64 <= 0.0015 * f64::from(SIZE[0] * SIZE[1]), "{wrong} pixels differ");
+
+    let of = |program: Program, shot: &common::Shot| shot.plan.draws().filter(|(_, draw)| draw.program == program).count();
+    assert_eq!((of(Program::Texture, &each), of(Program::Texture, &last)), (0, 1));
+    let reads =
+        |shot: &common::Shot| shot.plan.draws().filter(|(_, draw)| draw.program == Program::Lit && draw.look.textured).count();
+    assert_eq!((reads(&each), reads(&last)), (2, 0), "no light reads a texture");
+
+    let (shiny, settings) = textured(0.4);
+    stage.set_scene(&shiny);
+    let each = stage.shoot(&settings, &shiny).image;
+    let last = stage.shoot(&once(&settings), &shiny).image;
+    // The colour of what differs most: white where each light reads the texture, the texture's where none does.
+    let (white, tinted) =
+        each.pixels().zip(last.pixels()).max_by_key(|(a, b)| (0..3).map(|i| a.0[i].abs_diff(b.0[i])).max()).unwrap();
+    let spread = |pixel: &image::Rgba<u8>| pixel.0[..3].iter().max().unwrap() - pixel.0[..3].iter().min().unwrap();
+    assert!(spread(tinted) > spread(white) + 20, "{white:?} and {tinted:?}");
 }

@@ -21,7 +21,7 @@ pub(super) struct LightingArguments {
     accumulate: Option<u32>,
     #[arg(long, value_name = "A", help = format!("What lights are added into: {}", names(Accumulation::ALL.map(Accumulation::name))))]
     accumulation: Option<String>,
-    #[arg(long, hide = true, value_name = "T", help = format!("How often surfaces are textured: {}", names(Texturing::ALL.map(Texturing::name))))]
+    #[arg(long, value_name = "T", help = format!("How often surfaces are textured: {}", names(Texturing::ALL.map(Texturing::name))))]
     texturing: Option<String>,
     /// Writes the names of lights and of what casts shadows into the picture
     #[arg(long)]

@@ -91,6 +91,8 @@ pub enum Blend {
     Add,
     /// Covers it by alpha, premultiplied.
     Over,
+    /// Multiplies it: a texture over the light that falls on it.
+    Multiply,
 }
 
 /// Which side of a triangle is left out.

@@ -167,6 +167,8 @@ pub enum Program {
     VolumeBacks,
     /// Names on their plates.
     Labels,
+    /// Surfaces' textures, without any light.
+    Texture,
 }
 
 /// What a step draws, by number.

@@ -336,6 +336,11 @@ fn blend(blend: Blend) -> Option<wgpu::BlendState> {
     match blend {
         Blend::Replace => None,
         Blend::Add => both(one_and(wgpu::BlendFactor::One)),
+        Blend::Multiply => both(wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::Dst,
+            dst_factor: wgpu::BlendFactor::Zero,
+            operation: wgpu::BlendOperation::Add,
+        }),
         Blend::Over => both(one_and(wgpu::BlendFactor::OneMinusSrcAlpha)),
     }
 }

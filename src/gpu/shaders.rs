@@ -24,6 +24,7 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("verdict.wgsl", include_str!("../../shaders/verdict.wgsl")),
     ("volume.wgsl", include_str!("../../shaders/volume.wgsl")),
     ("wireframe.wgsl", include_str!("../../shaders/wireframe.wgsl")),
+    ("texture.wgsl", include_str!("../../shaders/texture.wgsl")),
     ("labels.wgsl", include_str!("../../shaders/labels.wgsl")),
     ("output.wgsl", include_str!("../../shaders/output.wgsl")),
 ];
@@ -115,6 +116,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::VolumeFronts, "volume.wgsl", "volume_vertex", "volume_count_fronts", Vertices::Volume, &[]),
     entry(Program::VolumeBacks, "volume.wgsl", "volume_vertex", "volume_count_backs", Vertices::Volume, &[]),
     entry(Program::Labels, "labels.wgsl", "label_vertex", "label", Vertices::Labels, &[]),
+    entry(Program::Texture, "texture.wgsl", "surface_vertex", "texture", Vertices::Surface, SURFACE),
 ];
 
 /// The entry of a program.

@@ -3,12 +3,15 @@
 //! Surfaces are grouped by the state they need: culled or drawn from both sides, wound straight or
 //! mirrored, masked or not, with a texture or a highlight or without.
 
+use glam::Vec3;
+
 use crate::frame::plan::View;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{Action, Draw, DrawSet, LightShape, Look, Program, Step, Surface, Target};
 use crate::geometry::frustum::screen_rect;
 use crate::scene::{AlphaMode, Pose, Scene};
+use crate::settings::Texturing;
 
 /// Surfaces that share state and shader.
 #[derive(Debug)]
@@ -23,12 +26,14 @@ struct Kind {
     cull: Cull,
     winding: Winding,
     masked: bool,
+    /// Its texture multiplies the sum of all lights, and no light reads it.
+    textured_last: bool,
     look: Look,
 }
 
 /// The scene's opaque and masked surfaces that the view may see, grouped.
 #[must_use]
-pub fn opaque_groups(scene: &Scene, pose: &Pose, view: &View, size: [u32; 2]) -> Vec<SurfaceGroup> {
+pub fn opaque_groups(scene: &Scene, pose: &Pose, view: &View, size: [u32; 2], texturing: Texturing) -> Vec<SurfaceGroup> {
     let clip_from_world = view.camera.clip_from_world();
     let seen: Vec<_> = scene
         .instances()
@@ -38,7 +43,12 @@ pub fn opaque_groups(scene: &Scene, pose: &Pose, view: &View, size: [u32; 2]) ->
         })
         .collect();
     let mut groups: Vec<SurfaceGroup> = Vec::new();
-    for (kind, alpha, surface) in described(scene, pose, view) {
+    for (mut kind, alpha, surface) in described(scene, pose, view) {
+        if texturing == Texturing::Once && kind.textured_last {
+            kind.look.textured = false;
+        } else {
+            kind.textured_last = false;
+        }
         if alpha != AlphaMode::Blend && seen[surface.instance] {
             match groups.iter_mut().find(|group| group.kind == kind) {
                 Some(group) => group.surfaces.push(surface),
@@ -58,6 +68,11 @@ fn described<'a>(scene: &'a Scene, pose: &'a Pose, view: &'a View) -> impl Itera
                 cull: if material.double_sided { Cull::None } else { Cull::Back },
                 winding,
                 masked: matches!(material.alpha, AlphaMode::Mask(_)),
+                // Masked surfaces need their texture to know where they are, and what surfaces give off by
+                // themselves is no light on their texture.
+                textured_last: material.base_color_texture.is_some()
+                    && material.alpha == AlphaMode::Opaque
+                    && material.emissive == Vec3::ZERO,
                 look: Look {
                     textured: material.base_color_texture.is_some(),
                     glossy: material.roughness < MATT || material.metallic > 0.0,
@@ -209,6 +224,25 @@ pub fn lit(
     groups.iter().filter_map(of_group).collect()
 }
 
+/// The textures of surfaces whose light was added up without them (M section 8).
+#[must_use]
+pub fn textures(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
+    let draw = |group: &SurfaceGroup| Draw {
+        program: Program::Texture,
+        look: Look::default(),
+        target: Target::Scene,
+        state: group.again(Blend::Multiply, StencilState::IGNORE),
+        stencil_reference: 0,
+        scissor,
+        light: None,
+        constant: [0.0; 4],
+        set: DrawSet::Surfaces(group.surfaces.clone()),
+    };
+    let why = "Multiplies the sum of all lights with the surface's texture, which no light has read: once a frame instead of once a light.";
+    let last = groups.iter().filter(|group| group.kind.textured_last);
+    last.map(|group| step(format!("texture{}", group.words()), why, draw(group))).collect()
+}
+
 /// One light's verdict in exact values: white where the count is zero, black where it is not.
 #[must_use]
 pub fn verdict(groups: &[SurfaceGroup], light: usize, scissor: [u32; 4], budget: BitBudget) -> Vec<Step> {
@@ -305,6 +339,7 @@ impl SurfaceGroup {
             (kind.cull == Cull::None, ", both sides"),
             (kind.winding == Winding::Cw, ", mirrored"),
             (kind.masked, ", masked"),
+            (kind.textured_last, ", textured last"),
             (kind.look.textured, ", textured"),
             (kind.look.glossy, ", glossy"),
         ] {
