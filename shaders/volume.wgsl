@@ -10,6 +10,14 @@ fn volume_vertex(@location(0) vertex: vec4f, @builtin(instance_index) volume: u3
     return VolumePoint(volume_position(vertex, volume));
 }
 
+// For the failure gallery: by way of world space, in two products where `clip_position` has one. Equal in
+// mathematics, it differs in the last bits, and what lies on a surface may end up behind it.
+@vertex
+fn volume_vertex_mismatched(@location(0) vertex: vec4f, @builtin(instance_index) volume: u32) -> VolumePoint {
+    let world = objects[volumes[volume].object].world_from_object * volume_in_object(vertex, volume);
+    return VolumePoint(frame.clip_from_world * world);
+}
+
 // Counting: the stencil is all that changes.
 @fragment
 fn volume_count() {

@@ -24,8 +24,9 @@ use clap::error::ErrorKind;
 use clap::{Args, CommandFactory as _, Parser, Subcommand};
 use glam::DVec3;
 
+use crate::failures;
 use crate::scene::{AnimationChoice, stock};
-use crate::settings::{CameraChoice, LightEdit, MAX_SIZE, SceneChoice, Settings, Show, Technique};
+use crate::settings::{CameraChoice, Failure, LightEdit, MAX_SIZE, SceneChoice, Settings, Show, Technique};
 
 /// What the arguments ask for.
 #[derive(Debug, Clone, PartialEq)]
@@ -163,7 +164,7 @@ impl Parsed {
                 Command::Window(request)
             }
             Some(Subcommands::Render(render)) => Command::Render {
-                settings: render.picture.settings(Some(&render.scene), Settings::default())?,
+                settings: render.picture.settings(render.scene.as_deref(), Settings::default())?,
                 out: render.out,
                 json: render.json,
             },
@@ -196,7 +197,7 @@ pub fn scene_choice(word: &OsStr) -> Result<SceneChoice, InputError> {
 }
 
 fn is_stock(name: &str) -> bool {
-    stock::TABLE.iter().any(|scene| scene.name == name)
+    stock::find(name).is_some()
 }
 
 /// A relative path that would be read as something else.
@@ -280,9 +281,10 @@ enum Switch {
 
 #[derive(Debug, Args)]
 struct RenderArguments {
-    /// A stock scene's name, or a .gltf or .glb file (`./name` where a file has a stock name)
-    #[arg(value_name = "SCENE")]
-    scene: OsString,
+    /// A stock scene's name, or a .gltf or .glb file (`./name` where a file has a stock name); may be left
+    /// out with --failure, which brings its own
+    #[arg(value_name = "SCENE", required_unless_present = "failure")]
+    scene: Option<OsString>,
     /// The PNG file to write
     #[arg(long, value_name = "FILE.png")]
     out: PathBuf,
@@ -347,6 +349,10 @@ struct PictureArguments {
     technique: Option<String>,
     #[arg(long, value_name = "S", help = format!("What is shown: {}", names(Show::ALL.map(Show::name))))]
     show: Option<String>,
+    /// A classic mistake, made on purpose (`obscura list` names them); without SCENE it is shown on a scene of
+    /// its own
+    #[arg(long, value_name = "NAME")]
+    failure: Option<String>,
     /// The light that stencil, shadow and volumes look at, from 0
     #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = index)]
     light: Option<usize>,
@@ -416,6 +422,14 @@ impl PictureArguments {
                 adapter: settings.adapter,
                 shaders: settings.shaders,
                 ..Settings::default()
+            };
+        }
+        if let Some(name) = &self.failure {
+            let failure = by_name("failure", name, Failure::ALL, Failure::name)?;
+            settings = if scene.is_none() {
+                failures::demonstration(failure, &settings)
+            } else {
+                Settings { failure: Some(failure), ..settings }
             };
         }
         if let Some(name) = &self.technique {

@@ -9,6 +9,7 @@ use std::cell::OnceCell;
 use glam::DVec2;
 use thiserror::Error;
 
+use crate::failures;
 use crate::frame::plan::View;
 use crate::frame::state::Winding;
 use crate::frame::stencil::{BitBudget, StencilState};
@@ -108,7 +109,10 @@ pub fn stage_frame(
         camera.shift = beside * 2.0 / DVec2::new(width.into(), height.into());
     }
     let gather = (frames > 1).then_some(Gather { frame, frames });
-    let plan = plan(settings, scene, &pose, camera, capabilities, gather);
+    let mut plan = plan(&failures::while_on(settings), scene, &pose, camera, capabilities, gather);
+    if let Some(failure) = settings.failure {
+        failures::spoil(failure, &mut plan);
+    }
     validate(&plan)?;
     Ok((pose, plan))
 }
@@ -247,6 +251,7 @@ impl<'a> Frame<'a> {
             gather: None,
             points: pose.lights.iter().map(|light| light.of).collect(),
             notes,
+            breaks: None,
         };
         let near_pyramid = NearPyramid::of(camera.eye, camera.near_rectangle());
         let receivers = scene.bounds(pose).union(&Aabb::around(camera.eye, camera.eye));

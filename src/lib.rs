@@ -28,6 +28,8 @@
 //! - [`director::plan`] is the only place where the order of passes is written, and reads aloud as the frame.
 //! - [`frame::validate::validate`] refuses a plan that tests bits nobody set, writes bits that are not its
 //!   own, or counts a volume inside out.
+//! - [`failures::spoil`] makes a classic mistake in a finished plan where the settings ask for one: a pure
+//!   change of data, which names the rule it breaks.
 //! - [`gpu`] carries plans out and decides nothing. The state in a step is its pipeline's cache key.
 //!
 //! # The rooms
@@ -39,12 +41,13 @@
 //! | [`frame`] | the plan's types: steps, named states, the stencil's bits, camera, validation |
 //! | [`techniques`] | one file each and a table of them: how a caster's volume is counted, and why |
 //! | [`director`] | the pass order |
+//! | [`failures`] | the classic mistakes: what each looks like, why, and how it spoils a finished plan |
 //! | [`gpu`] | the device, shaders, pipelines, buffers, encoding, read-back, timing |
 //! | [`truth`] | exact rays: what each pixel must be, and the comparison with what was drawn |
 //! | [`headless`] | pictures, the tour, lists and reports without a window |
 //! | [`app`] | the window: loop, surface, input, and the panel, which edits settings and nothing else |
 //!
-//! Imports go downward: `app` and `headless` to `director`, to `techniques`, to `frame`, to `scene`, to
+//! Imports go downward: `app` and `headless` to `director`, to `failures` and `techniques`, to `frame`, to `scene`, to
 //! `geometry`; `gpu` reads `frame` and `scene`; `truth` reads `scene`, `geometry` and the camera. Settings and scene name each other's choices (which
 //! scene; which animation), and everybody may read settings.
 //!
@@ -97,6 +100,7 @@
 pub mod app;
 pub mod cli;
 pub mod director;
+pub mod failures;
 pub mod frame;
 pub mod geometry;
 pub mod gpu;

@@ -27,6 +27,8 @@ pub struct Settings {
     pub technique: Technique,
     /// What is shown of it.
     pub show: Show,
+    /// The classic mistake that the frame makes on purpose.
+    pub failure: Option<Failure>,
     /// The light that `stencil`, `shadow` and `volumes` look at.
     pub light: usize,
     /// Pixels: 1 to [`MAX_SIZE`] a side. The window's own size wins there.
@@ -66,6 +68,7 @@ impl Default for Settings {
             floor: false,
             technique: Technique::default(),
             show: Show::default(),
+            failure: None,
             light: 0,
             size: [1280, 720],
             samples: 1,
@@ -239,6 +242,38 @@ pub enum Show {
     Volumes,
     /// The picture with every triangle's edges.
     Wireframe,
+}
+
+named! {
+    /// The classic mistakes of shadow volumes, each of which one switch makes. [`crate::failures::TABLE`]
+    /// says of each what is seen, why, and what cures it. The default is where the gallery begins.
+    Failure {
+        /// Counting in front of the surface, from inside a shadow.
+        #[default]
+        EyeInShadow = "eye-in-shadow",
+        /// The near plane cuts a volume open.
+        NearPlane = "near-plane",
+        /// A far plane cuts volumes open.
+        FiniteFar = "finite-far",
+        /// Volumes that are open towards the light.
+        NoLightCap = "no-light-cap",
+        /// Volumes that are open away from the light.
+        NoDarkCap = "no-dark-cap",
+        /// The dark cap as a fan all around the light.
+        DarkCapFan = "dark-cap-fan",
+        /// Counting that stops at 0 and 255.
+        Saturating = "saturating",
+        /// The rules for closed meshes on an open one.
+        OpenMesh = "open-mesh",
+        /// A vertex in the middle of an edge.
+        TJunction = "t-junction",
+        /// A volume of fewer triangles than the surface.
+        CoarseVolume = "coarse-volume",
+        /// Surfaces and volumes whose positions are computed differently.
+        MismatchedArithmetic = "mismatched-arithmetic",
+        /// Volumes moved by polygon offset.
+        PolygonOffset = "polygon-offset",
+    }
 }
 
 impl Show {

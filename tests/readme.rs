@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 use obscura::app::keys;
+use obscura::failures;
 use obscura::headless::catalog::Catalog;
 use obscura::headless::read_command;
 
@@ -21,6 +22,17 @@ fn every_key_is_listed_and_no_other() {
     let listed: Vec<_> = section.lines().filter(|line| line.starts_with("| ")).skip(2).collect();
     let expected: Vec<_> = keys::TABLE.iter().map(|row| format!("| {} | {} |", row.keys, row.about)).collect();
     assert_eq!(listed, expected, "README.md, Keys; the right lines are:\n{}\n", expected.join("\n"));
+}
+
+#[test]
+fn every_failure_is_listed_as_the_gallery_has_it() {
+    let section = README.split("\n## The failure gallery\n").nth(1).unwrap().split("\n## ").next().unwrap();
+    let listed: Vec<_> = section.lines().filter(|line| line.starts_with("| `")).collect();
+    let line = |row: &failures::Row| {
+        format!("| `{}` | {} | {} | {} | {} |", row.failure.name(), row.seen, row.why, row.cure, row.source)
+    };
+    let expected: Vec<_> = failures::TABLE.iter().map(line).collect();
+    assert_eq!(listed, expected, "README.md; the right lines are:\n{}\n", expected.join("\n"));
 }
 
 #[test]

@@ -11,10 +11,11 @@ use obscura::app::control::Mode;
 use obscura::app::keys;
 use obscura::app::store::Preferences;
 use obscura::app::ui::{Action, Desk, FrameNumbers, History, Notice, Panel, Tone, Topic, View, project, style};
+use obscura::failures;
 use obscura::frame::{Camera, Capabilities};
 use obscura::scene::stock::StockScene;
 use obscura::scene::{self, Light, LightKind, Node, Pose, PosedLight, Scene};
-use obscura::settings::{CameraChoice, LightEdit, SceneChoice, Settings, Show, Technique};
+use obscura::settings::{CameraChoice, Failure, LightEdit, SceneChoice, Settings, Show, Technique};
 use obscura::techniques::TABLE;
 
 /// Everything around the panel that the window would hold.
@@ -308,6 +309,33 @@ fn dragging_the_picture_moves_the_eye_about_its_target() {
     assert!(target.distance(before.target()) < 1e-6);
     assert!(eye.distance(before.eye) > 0.1 && (eye.distance(target) - before.focus_distance).abs() < 1e-6);
     assert!(harness.state().settings.lights.is_empty(), "no light moved");
+}
+
+#[test]
+fn a_failure_is_chosen_read_and_switched_off_to_compare() {
+    let mut harness = open(Bench::new());
+    click(&mut harness, "Failures");
+    harness.run_steps(8);
+    assert!(harness.query_by_label("Make this mistake").is_none(), "none is chosen yet");
+    for row in &failures::TABLE {
+        assert!(harness.query_by_label(row.title).is_some(), "{}", row.title);
+    }
+    let row = failures::row(Failure::NoDarkCap);
+    click(&mut harness, row.title);
+    assert_eq!(harness.state().actions, [Action::Demonstrate(Failure::NoDarkCap)]);
+    for words in [row.seen, row.why, row.cure] {
+        assert!(harness.query_by_label(words).is_some(), "{words}");
+    }
+    // What the window does of it.
+    let size = settings(&harness).size;
+    harness.state_mut().settings = failures::demonstration(Failure::NoDarkCap, &Settings { size, ..Settings::default() });
+    let on = settings(&harness);
+    harness.run_steps(2);
+    click(&mut harness, "Make this mistake");
+    assert_eq!(settings(&harness), Settings { failure: None, ..on.clone() });
+    assert!(harness.query_by_label(row.why).is_some(), "the sentences stay");
+    click(&mut harness, "Make this mistake");
+    assert_eq!(settings(&harness), on);
 }
 
 #[test]

@@ -13,6 +13,7 @@ struct Frame {
     scale: f32,                 // times all light that surfaces give; `exposure` is then less by it
     size: vec2f,                // pixels
     _pad2: vec2f,
+    clip_from_world: mat4x4f,   // for mismatched arithmetic only: see volume.wgsl
 }
 
 struct Object {

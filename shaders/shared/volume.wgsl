@@ -5,6 +5,11 @@
 // A cut-out's vertices with w = 0 go through its matrix instead (K 6.2.1, appendix C, "Advanced").
 
 fn volume_position(vertex: vec4f, volume: u32) -> vec4f {
+    return clip_position(volumes[volume].object, volume_in_object(vertex, volume));
+}
+
+// The vertex in object space, homogeneous.
+fn volume_in_object(vertex: vec4f, volume: u32) -> vec4f {
     let light = volumes[volume].light_in_object;
     let end = volumes[volume].end_in_object;
     // Along the ray from the light, light + t * way, to where the plane is; homogeneous, so that
@@ -16,5 +21,5 @@ fn volume_position(vertex: vec4f, volume: u32) -> vec4f {
     if volumes[volume].by_matrix == 1u {
         thrown = volumes[volume].thrown * vec4f(vertex.xyz, 1.0);
     }
-    return clip_position(volumes[volume].object, select(thrown, vec4f(vertex.xyz, 1.0), vertex.w == 1.0));
+    return select(thrown, vec4f(vertex.xyz, 1.0), vertex.w == 1.0);
 }

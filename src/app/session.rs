@@ -5,10 +5,11 @@ use std::time::{Duration, Instant};
 use super::ui::{self, Action, History, Notice, Panel, Tone, Topic, View};
 use super::{WindowOptions, photo, store};
 use crate::cli::render_command;
+use crate::failures::demonstration;
 use crate::frame::{Capabilities, FramePlan};
 use crate::scene::open::{Loading, load_on_thread};
 use crate::scene::{Pose, Scene, doctor, stock};
-use crate::settings::{SceneChoice, Settings};
+use crate::settings::{Failure, SceneChoice, Settings};
 use store::{Preferences, Store};
 
 /// How long good news stay.
@@ -29,6 +30,8 @@ struct Opening {
     /// It is the scene that is there already, or the one that the settings were made for: camera
     /// and lights stay.
     keep: bool,
+    /// The failure that it is to show, with all that belongs to that.
+    failure: Option<Failure>,
 }
 
 /// The last picture.
@@ -152,7 +155,22 @@ impl Session {
             SceneChoice::File(path) => path.display().to_string(),
         };
         let floor = self.settings.floor;
-        self.opening = Some(Opening { loading: load_on_thread(choice, floor, wake), name, floor, keep });
+        self.opening = Some(Opening { loading: load_on_thread(choice, floor, wake), name, floor, keep, failure: None });
+    }
+
+    /// Shows a failure of the gallery, on the scene that shows it well; that is opened first where it is not
+    /// there yet, so that the settings never speak of another.
+    pub fn demonstrate(&mut self, failure: Failure, wake: impl FnOnce() + Send + 'static) {
+        let wanted = demonstration(failure, &self.settings);
+        if self.loaded.is_some() && self.opening.is_none() && wanted.scene == self.settings.scene && !self.settings.floor {
+            self.settings = wanted;
+            return;
+        }
+        self.settings.floor = false;
+        self.open(wanted.scene, true, wake);
+        if let Some(opening) = &mut self.opening {
+            opening.failure = Some(failure);
+        }
     }
 
     /// Whether the floor was switched since the scene was opened.
@@ -172,7 +190,9 @@ impl Session {
         let choice = opening.loading.choice;
         match result {
             Ok(scene) => {
-                if !opening.keep {
+                if let Some(failure) = opening.failure {
+                    self.settings = demonstration(failure, &self.settings);
+                } else if !opening.keep {
                     store::turn_to(&mut self.settings, choice.clone());
                 }
                 if let SceneChoice::File(path) = &choice {
@@ -345,6 +365,22 @@ mod tests {
         assert!(!open(&mut session, relative, Ok(())));
         assert_eq!(session.settings.scene, SceneChoice::File(absolute.clone()));
         assert_eq!(session.preferences.recent, [absolute]);
+    }
+
+    #[test]
+    fn a_failure_is_shown_once_its_scene_is_there() {
+        let mut session = session();
+        let before = session.settings.clone();
+        let (woken, wait) = std::sync::mpsc::channel();
+        session.demonstrate(Failure::DarkCapFan, move || woken.send(()).unwrap());
+        assert_eq!(session.settings, before, "not before");
+        wait.recv_timeout(std::time::Duration::from_secs(60)).unwrap();
+        session.take_opened(|_| Ok(()));
+        assert_eq!(session.settings, demonstration(Failure::DarkCapFan, &before));
+        session.settings.camera = CameraChoice::Named("inside".into());
+        session.settings.failure = None;
+        session.demonstrate(Failure::DarkCapFan, || unreachable!("the scene is there"));
+        assert_eq!(session.settings, demonstration(Failure::DarkCapFan, &before), "seen from where it shows well");
     }
 
     #[test]

@@ -352,6 +352,10 @@ impl Shell {
         let Some(action) = self.session.act(action) else { return };
         match action {
             Action::Open(choice) => self.open(choice, false),
+            Action::Demonstrate(failure) => {
+                let wake = self.waker(Wake::Scene);
+                self.session.demonstrate(failure, wake);
+            }
             Action::Reload => self.open(self.session.settings.scene.clone(), true),
             Action::Screenshot => self.photograph(),
             Action::CopyCommand => {

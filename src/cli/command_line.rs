@@ -20,6 +20,7 @@ pub fn render_command(settings: &Settings) -> String {
         floor,
         technique,
         show,
+        failure,
         light,
         size,
         samples,
@@ -52,6 +53,9 @@ pub fn render_command(settings: &Settings) -> String {
     }
     if *show != default.show {
         line.option("--show", show.name());
+    }
+    if let Some(failure) = failure {
+        line.option("--failure", failure.name());
     }
     if *light != default.light {
         line.option("--light", &light.to_string());

@@ -42,7 +42,7 @@ fn clap_finds_no_fault_in_the_definition() {
 #[test]
 fn every_argument_reaches_its_setting() {
     let got = settings(
-        "obscura render fox.glb --out a.png --technique z-pass --show stencil --light 2 --size 64x32 --samples 4 \
+        "obscura render fox.glb --out a.png --technique z-pass --show stencil --failure saturating --light 2 --size 64x32 --samples 4 \
          --eye -1,2.5,3e2 --target 0,0,-1 --fov 33.5 --far 7.5 --time 1.25 --animation 3 --floor --exposure -1.5 \
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --light-sample 3 --accumulate 256 \
@@ -64,6 +64,7 @@ fn every_argument_reaches_its_setting() {
         floor: true,
         technique: Technique::ZPass,
         show: Show::Stencil,
+        failure: Some(Failure::Saturating),
         light: 2,
         size: [64, 32],
         samples: 4,
@@ -87,6 +88,26 @@ fn every_argument_reaches_its_setting() {
         shaders: Some("wgsl".into()),
     };
     assert_eq!(got, expected);
+}
+
+#[test]
+fn a_failure_brings_its_own_scene_where_none_is_named() {
+    let base = Settings::default();
+    let expected = crate::failures::demonstration(Failure::DarkCapFan, &base);
+    assert_ne!(expected.scene, base.scene);
+    assert_eq!(settings("obscura render --failure dark-cap-fan --out a.png"), expected);
+    let got = settings("obscura render --failure dark-cap-fan --out a.png --camera inside --size 64x36");
+    let camera = CameraChoice::Named("inside".into());
+    assert_eq!(got, Settings { camera, size: [64, 36], ..expected.clone() }, "which may be looked at from elsewhere");
+    let got = settings("obscura render cubes --failure dark-cap-fan --out a.png");
+    let (scene, failure) = (SceneChoice::Stock("cubes".into()), Some(Failure::DarkCapFan));
+    assert_eq!(got, Settings { scene, failure, ..base });
+    let message = input_error("obscura render --failure none --out a.png");
+    assert!(message.starts_with("no failure `none`; there are: eye-in-shadow, near-plane, "), "{message}");
+    assert!(usage_error("obscura render --out a.png").contains("SCENE"));
+    let Command::Window(request) = command("obscura --failure t-junction").unwrap() else { panic!() };
+    let saved = Settings { size: [64, 36], ..Settings::default() };
+    assert_eq!(request.settings(saved.clone()).unwrap(), crate::failures::demonstration(Failure::TJunction, &saved));
 }
 
 #[test]
@@ -337,17 +358,19 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         lighting,
         prop::option::of(word()),
         prop::option::of(word().prop_filter("a folder", |path| !path.is_empty()).prop_map(PathBuf::from)),
+        prop::option::of(prop::sample::select(&Failure::ALL[..])),
     );
     (picture, eye, rest).prop_map(
         |(
             (scene, floor, technique, show, light, size, samples),
             (camera, fov, far, time, animation, smooth_terminator, exposure),
-            (lights, lighting, adapter, shaders),
+            (lights, lighting, adapter, shaders, failure),
         )| Settings {
             scene,
             floor,
             technique,
             show,
+            failure,
             light,
             size,
             samples,

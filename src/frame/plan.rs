@@ -7,6 +7,8 @@ use super::camera::Camera;
 use super::state::Winding;
 use super::stencil::BitBudget;
 use super::step::{Action, Draw, Step};
+use super::validate::Rule;
+use crate::geometry::Flaw;
 use crate::geometry::cutout::{CutoutPlane, Throw};
 use crate::geometry::volume::Outline;
 use crate::settings::Accumulation;
@@ -39,6 +41,10 @@ pub struct FramePlan {
     pub points: Vec<usize>,
     /// What a user should know about this frame: replacements, limits.
     pub notes: Vec<String>,
+    /// The one rule of [`super::validate`] that this frame breaks, where it is spoiled on purpose
+    /// ([`crate::failures`]).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub breaks: Option<Rule>,
 }
 
 /// One of several frames whose mean is shown. Drawn again, it leaves the same mean.
@@ -92,6 +98,9 @@ pub struct VolumePlan {
     pub turns: bool,
     /// The front's winding on screen.
     pub winding: Winding,
+    /// How it is built wrongly, where it is so on purpose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flaw: Option<Flaw>,
 }
 
 /// A cut-out that a volume is thrown from, in the caster's object space.

@@ -143,6 +143,8 @@ pub enum Program {
     Lit,
     /// Shadow volumes, no colour.
     Volume,
+    /// The same by other arithmetic than the surfaces', on purpose ([`crate::failures`]).
+    VolumeMismatched,
     /// Shadow volumes as coloured glass.
     VolumeGlass,
     /// One light's verdict in plain values.

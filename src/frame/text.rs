@@ -41,6 +41,9 @@ impl Display for FramePlan {
             if volume.outline == Outline::Polygons {
                 write!(f, "; of every polygon")?;
             }
+            if let Some(flaw) = volume.flaw {
+                write!(f, "; built wrongly: {flaw:?}")?;
+            }
             if let Some(end) = volume.end {
                 write!(f, "; ends where ({}) . x = {:.3}", end.truncate(), -end.w)?;
             }

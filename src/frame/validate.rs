@@ -1,11 +1,21 @@
 //! Checks a plan without a GPU. A fault here is a bug in the director or a technique, caught where
 //! it can be read instead of where it can only be seen.
 
+use serde::Serialize;
 use thiserror::Error;
 
 use super::plan::{FramePlan, Method};
 use super::state::{Compare, NearPlane};
 use super::step::{Action, Draw, DrawSet, Part, Target};
+
+/// A rule that a plan may break on purpose, where it shows what comes of it: see
+/// [`crate::failures`]. All others hold always.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rule {
+    /// Exact z-pass is counted under depth clamp, and nothing else is.
+    ExactZPassClamps,
+}
 
 /// What is wrong with a plan, and with which step.
 #[derive(Debug, Error, PartialEq, Eq)]
@@ -132,7 +142,7 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
                 return Err("it counts another light's volume");
             }
             let clamped = draw.state.near_plane == NearPlane::Clamp;
-            if clamped != (volume.method == Method::ExactZPass) {
+            if clamped != (volume.method == Method::ExactZPass) && plan.breaks != Some(Rule::ExactZPassClamps) {
                 return Err("depth clamp belongs to exact z-pass, and exact z-pass needs it");
             }
             let light_cap = matches!(part.part, Part::LightCapKept | Part::LightCapTurned);

@@ -5,6 +5,7 @@ pub mod cutout;
 pub mod ending;
 pub mod eye_count;
 pub mod flatten;
+pub mod flaw;
 pub mod frustum;
 pub mod overlap;
 pub mod silhouette;
@@ -15,6 +16,7 @@ pub mod weld;
 
 pub use bounds::Aabb;
 pub use eye_count::{EyeCount, holding_count};
+pub use flaw::Flaw;
 pub use frustum::NearPyramid;
 pub use silhouette::{Facing, Planes, light_in_object};
 pub use topology::{Topology, TopologyReport};

@@ -138,6 +138,26 @@ impl Topology {
         topology
     }
 
+    /// Of triangles that are welded already, all of which cast: the volume's vertices are `welded`.
+    #[must_use]
+    pub fn of_welded(triangles: Vec<[u32; 3]>, welded: &[Vec3]) -> Self {
+        let same: Vec<u32> = (0..welded.len() as u32).collect();
+        let weld = Weld { welded_of_vertex: same.clone(), vertex_of_welded: same };
+        let mut topology = Self { weld, mesh_triangles: (0..triangles.len() as u32).collect(), triangles, ..Self::default() };
+        topology.report.triangles = topology.triangles.len();
+        topology.report.welded_vertices = welded.len();
+        topology.find_edges();
+        topology.find_solids(welded);
+        topology
+    }
+
+    /// The same triangles as software sees them that takes every mesh for closed: no soup, and no
+    /// edges but those of two triangles.
+    #[must_use]
+    pub fn assumed_closed(&self) -> Self {
+        Self { two_sided: vec![false; self.triangles.len()], others: OtherEdges::default(), ..self.clone() }
+    }
+
     fn find_edges(&mut self) {
         // Directed edges, sorted into buckets by their smaller end, then each small bucket by the
         // larger end and the triangle: in all O(n) for ordinary meshes, O(n log n) for any.
@@ -310,7 +330,8 @@ impl Topology {
     }
 }
 
-fn directed_edges(&[a, b, c]: &[u32; 3]) -> [[u32; 2]; 3] {
+/// A triangle's edges, as it runs along them.
+pub(super) fn directed_edges(&[a, b, c]: &[u32; 3]) -> [[u32; 2]; 3] {
     [[a, b], [b, c], [c, a]]
 }
 

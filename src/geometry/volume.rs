@@ -32,6 +32,7 @@ use std::ops::Range;
 use glam::{DVec3, Vec3, Vec4};
 use serde::Serialize;
 
+use super::flaw::Flaw;
 use super::silhouette::{Facing, Planes, polygon_edges, silhouette};
 use super::{Aabb, Topology};
 
@@ -134,6 +135,34 @@ impl VolumeScratch {
     /// direction towards a directional light with w = 0) span to `indices`, which count
     /// 2 V vertices: V welded ones, then V extruded.
     pub fn append(&mut self, caster: Caster, light: Vec4, parts: VolumeParts, indices: &mut Vec<u32>) -> VolumeIndices {
+        self.append_with(caster, light, parts, false, indices)
+    }
+
+    /// The same, built wrongly in the way that `flaw` says.
+    pub fn append_flawed(
+        &mut self,
+        flaw: Flaw,
+        caster: Caster,
+        light: Vec4,
+        parts: VolumeParts,
+        indices: &mut Vec<u32>,
+    ) -> VolumeIndices {
+        let Some(topology) = flaw.topology(caster.topology, caster.welded) else {
+            return self.append_with(caster, light, parts, flaw == Flaw::FanAcross, indices);
+        };
+        let mut planes = Planes::default();
+        planes.build(&topology, caster.welded);
+        self.append_with(Caster { topology: &topology, planes: &planes, ..caster }, light, parts, false, indices)
+    }
+
+    fn append_with(
+        &mut self,
+        caster: Caster,
+        light: Vec4,
+        parts: VolumeParts,
+        always_fan: bool,
+        indices: &mut Vec<u32>,
+    ) -> VolumeIndices {
         let Caster { topology, welded, planes, .. } = caster;
         self.facing.decide(topology, planes, light);
         let dark_cap = parts.dark_cap && light.w != 0.0;
@@ -174,8 +203,9 @@ impl VolumeScratch {
         if dark_cap {
             match self.edges.first() {
                 Some(&[pivot, _])
-                    if parts.outline == Outline::Silhouette
-                        && within_half_space(welded, caster.bounds, light.truncate(), &self.edges) =>
+                    if always_fan
+                        || parts.outline == Outline::Silhouette
+                            && within_half_space(welded, caster.bounds, light.truncate(), &self.edges) =>
                 {
                     let apart = self.edges.iter().filter(|edge| !edge.contains(&pivot));
                     indices.extend(apart.flat_map(|&[a, b]| [pivot, b, a]).map(extruded));

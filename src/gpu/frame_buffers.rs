@@ -239,9 +239,10 @@ impl FrameBuffers {
                 planes: &vertices.planes,
                 bounds: &pose.bounds(scene, node_index),
             };
-            let (indices, first_vertex) = match &volume.cutout {
-                Some(cutout) => scratch.cutouts.append(caster, light, cutout, parts, &mut scratch.indices),
-                None => (scratch.volume.append(caster, light, parts, &mut scratch.indices), None),
+            let (indices, first_vertex) = match (&volume.cutout, volume.flaw) {
+                (Some(cutout), _) => scratch.cutouts.append(caster, light, cutout, parts, &mut scratch.indices),
+                (None, None) => (scratch.volume.append(caster, light, parts, &mut scratch.indices), None),
+                (None, Some(flaw)) => (scratch.volume.append_flawed(flaw, caster, light, parts, &mut scratch.indices), None),
             };
             self.volume_indices.push(indices);
             self.first_vertices.push(first_vertex);
@@ -300,6 +301,7 @@ fn frame(plan: &FramePlan, scene: &Scene, pose: &Pose) -> Frame {
         pixel: ((plan.views[0].camera.vertical_fov / 2.0).tan() * 2.0 / f64::from(plan.size[1])) as f32,
         background_bottom: scene.environment.background[1].to_array(),
         size,
+        clip_from_world: plan.views[0].camera.clip_from_world().as_mat4().to_cols_array_2d(),
         ..Frame::default()
     }
 }

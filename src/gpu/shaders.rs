@@ -104,6 +104,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::AmbientMasked, "ambient.wgsl", "surface_vertex", "ambient_masked", Vertices::Surface, AMBIENT),
     entry(Program::Lit, "lit.wgsl", "surface_vertex", "lit", Vertices::Surface, LIT),
     entry(Program::Volume, "volume.wgsl", "volume_vertex", "volume_count", Vertices::Volume, &[]),
+    entry(Program::VolumeMismatched, "volume.wgsl", "volume_vertex_mismatched", "volume_count", Vertices::Volume, &[]),
     entry(Program::VolumeGlass, "volume.wgsl", "volume_vertex", "volume_glass", Vertices::Volume, &[]),
     entry(Program::Verdict, "verdict.wgsl", "surface_vertex", "verdict", Vertices::Surface, SURFACE),
     entry(Program::Transparent, "transparent.wgsl", "surface_vertex", "transparent", Vertices::Surface, SURFACE),

@@ -31,6 +31,8 @@ pub struct Frame {
     pub size: [f32; 2],
     #[doc(hidden)]
     pub _pad2: [f32; 2],
+    /// By columns. Not what places vertices: only the failure of mismatched arithmetic is computed by it.
+    pub clip_from_world: [[f32; 4]; 4],
 }
 
 /// `struct Object` of `shared/frame.wgsl`; matrices by columns.

@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
+use crate::failures;
 use crate::scene::stock;
 use crate::settings::{Show, Technique};
 use crate::techniques;
@@ -17,6 +18,27 @@ pub struct Catalog {
     pub techniques: Vec<TechniqueEntry>,
     /// What can be shown.
     pub shows: Vec<Entry>,
+    /// The failure gallery.
+    pub failures: Vec<FailureEntry>,
+}
+
+/// A failure, in a sentence each.
+#[derive(Debug, Clone, Serialize)]
+pub struct FailureEntry {
+    /// As the command line takes it.
+    pub name: &'static str,
+    /// A few words.
+    pub title: &'static str,
+    /// What is seen.
+    pub seen: &'static str,
+    /// Why.
+    pub why: &'static str,
+    /// What cures it.
+    pub cure: &'static str,
+    /// Paper and section.
+    pub source: &'static str,
+    /// The scene it is shown on.
+    pub scene: &'static str,
 }
 
 /// A name, and what it stands for.
@@ -54,6 +76,18 @@ impl Catalog {
                 })
                 .into(),
             shows: Show::ALL.map(|show| Entry { name: show.name(), about: show.about() }).into(),
+            failures: failures::TABLE
+                .iter()
+                .map(|&failures::Row { failure, title, seen, why, cure, source, scene, .. }| FailureEntry {
+                    name: failure.name(),
+                    title,
+                    seen,
+                    why,
+                    cure,
+                    source,
+                    scene,
+                })
+                .collect(),
         }
     }
 }
@@ -78,6 +112,13 @@ impl fmt::Display for Catalog {
         writeln!(f, "\nshows (--show)")?;
         for Entry { name, about } in &self.shows {
             writeln!(f, "  {name:<14} {about}")?;
+        }
+        writeln!(f, "\nfailures (--failure), made on purpose")?;
+        for FailureEntry { name, title, seen, why, cure, source, scene } in &self.failures {
+            writeln!(f, "  {name:<22} {title} (shown on {scene}; {source})")?;
+            for (word, sentence) in [("seen", seen), ("why", why), ("cure", cure)] {
+                writeln!(f, "  {:<22} {word}: {sentence}", "")?;
+            }
         }
         Ok(())
     }

@@ -176,6 +176,7 @@ pub fn count_light(
             cutout,
             turns,
             winding: caster.winding(),
+            flaw: None,
         });
     }
     let base = volumes[first..].iter().map(|volume| volume.holds_eye).fold(0u8, |sum, count| {

@@ -7,6 +7,7 @@
 
 mod camera;
 mod commands;
+mod failures;
 mod gather;
 mod gizmo;
 mod help;
@@ -29,7 +30,7 @@ use super::store::Preferences;
 use crate::frame::{Camera, Capabilities, FramePlan};
 use crate::scene::stock::StockScene;
 use crate::scene::{Pose, Scene};
-use crate::settings::{SceneChoice, Settings};
+use crate::settings::{Failure, SceneChoice, Settings};
 
 /// What the panel edits.
 pub struct Desk<'a> {
@@ -108,6 +109,8 @@ pub enum Tone {
 pub enum Action {
     /// Opens another scene.
     Open(SceneChoice),
+    /// Shows a failure of the gallery where it shows well.
+    Demonstrate(Failure),
     /// Reads the scene again.
     Reload,
     /// Forgets the files opened before.
@@ -142,6 +145,8 @@ pub struct Panel {
     pub path: String,
     /// The help overlay is open.
     pub help: bool,
+    /// The failure that was chosen last, also while it is off.
+    failure: Option<Failure>,
     focus_path: bool,
     selected_light: Option<usize>,
     unfold_light: Option<usize>,
@@ -211,6 +216,7 @@ impl Panel {
         style::section(ui, "Frame", true, |ui| numbers::numbers(ui, desk, view));
         style::section(ui, "Technique", true, |ui| technique::techniques(ui, desk));
         style::section(ui, "Show", true, |ui| technique::show(ui, desk, view));
+        style::section(ui, "Failures", false, |ui| failures::failures(ui, self, desk, actions));
         style::section(ui, "Lights", true, |ui| lights::lights(ui, self, desk, view));
         style::section(ui, "Gathering", true, |ui| gather::gather(ui, desk, view));
         style::section(ui, "Camera", true, |ui| camera::camera(ui, desk, view));
@@ -222,7 +228,9 @@ impl Panel {
     /// What stays on the picture while the panel is hidden.
     fn floating(&self, ui: &Ui, desk: &Desk<'_>, view: &View<'_>, picture: Rect, actions: &mut Vec<Action>) {
         let frame = view.history.median(|frame| frame.interval_ms).unwrap_or(0.0);
-        let words = format!("{} | {} | {frame:.1} ms | F1 help", desk.settings.technique.name(), desk.settings.show.name());
+        let failure = desk.settings.failure.map(|failure| format!(" | wrong on purpose: {}", failure.name()));
+        let (technique, show) = (desk.settings.technique.name(), desk.settings.show.name());
+        let words = format!("{technique} | {show}{} | {frame:.1} ms | F1 help", failure.unwrap_or_default());
         numbers::caption(ui, picture, &words);
         if !view.notices.is_empty() {
             egui::Area::new(egui::Id::unique("notices")).fixed_pos(picture.left_top() + egui::vec2(10.0, 10.0)).show(

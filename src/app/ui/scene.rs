@@ -7,6 +7,7 @@ use egui::{Key, RichText, Ui};
 use super::style::{self, card, explain};
 use super::technique::capital;
 use super::{Action, Desk, Panel, View};
+use crate::scene::stock::DEMONSTRATIONS;
 use crate::settings::SceneChoice;
 
 /// Scenes and files.
@@ -22,7 +23,7 @@ pub fn scene(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_
     });
     match &desk.settings.scene {
         SceneChoice::Stock(name) => {
-            if let Some(stock) = view.stock.iter().find(|stock| stock.name == name) {
+            if let Some(stock) = view.stock.iter().chain(DEMONSTRATIONS).find(|stock| stock.name == name) {
                 explain(ui, format!("{}.", capital(stock.about).trim_end_matches('.')));
             }
         }

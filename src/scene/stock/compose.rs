@@ -12,8 +12,8 @@ use glam::{DMat3, DQuat, DVec3, Vec3, Vec4};
 use crate::frame::camera::DEFAULT_NEAR;
 use crate::scene::gltf::{ImportError, load_embedded};
 use crate::scene::{
-    Animation, AnimationChoice, Camera, Channel, Environment, Interpolation, Light, LightKind, Material, Node, Property, Scene,
-    Transform,
+    Animation, AnimationChoice, Camera, Channel, Environment, Interpolation, Light, LightKind, Material, Mesh, MeshParts, Node,
+    Primitive, Property, Scene, Transform,
 };
 
 macro_rules! model {
@@ -188,6 +188,39 @@ impl Composer {
         }
         self.scene.meshes.push(mesh);
         Prop { mesh: self.scene.meshes.len() - 1, ..prop }
+    }
+
+    /// A mesh made of these triangles (counter-clockwise from outside), flat, in one colour (linear).
+    pub(super) fn made(
+        &mut self,
+        name: &str,
+        positions: &[Vec3],
+        triangles: &[[u32; 3]],
+        color: [f32; 3],
+        roughness: f32,
+    ) -> Prop {
+        let [r, g, b] = color;
+        let index_count = triangles.as_flattened().len() as u32;
+        let primitive = Primitive { first_index: 0, index_count, material: self.scene.materials.len(), casts_shadow: true };
+        let parts = MeshParts {
+            name: name.into(),
+            positions: positions.to_vec(),
+            indices: triangles.as_flattened().to_vec(),
+            primitives: vec![primitive],
+            ..MeshParts::default()
+        };
+        match Mesh::new(parts) {
+            Ok(mesh) => self.scene.meshes.push(mesh),
+            Err(error) => self.scene.warnings.push(format!("the mesh {name:?} cannot be made: {error}")),
+        }
+        let base_color = Vec4::new(r, g, b, 1.0);
+        self.scene.materials.push(Material { name: name.into(), base_color, roughness, ..Material::default() });
+        Prop { mesh: self.scene.meshes.len().saturating_sub(1), casts_shadow: true }
+    }
+
+    /// The same shape drawn from both sides: a sheet.
+    pub(super) fn from_both_sides(&mut self, prop: Prop) -> Prop {
+        self.remade(prop, |material| material.double_sided = true)
     }
 
     /// A node that shows nothing, to hang others on.

@@ -3,6 +3,7 @@
 mod compose;
 mod courtyard;
 mod cubes;
+mod demonstrations;
 mod eye_in_shadow;
 mod grid;
 mod hello2rts;
@@ -69,8 +70,29 @@ pub static TABLE: &[StockScene] = &[
     },
 ];
 
-/// The built-in scene of that name.
+/// Scenes made for one failure of the gallery each ([`crate::failures`]): opened by name like the others,
+/// but listed there.
+pub static DEMONSTRATIONS: &[StockScene] = &[
+    StockScene {
+        name: "hut",
+        about: "a lamp in a hut with an open door: to the light there are walls all round",
+        build: demonstrations::hut,
+    },
+    StockScene {
+        name: "awning",
+        about: "an awning of strips, long panels beside short ones: the seams are where T-junctions would be",
+        build: demonstrations::awning,
+    },
+];
+
+/// The built-in scene of that name, from either table.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static StockScene> {
+    TABLE.iter().chain(DEMONSTRATIONS).find(|scene| scene.name == name)
+}
+
+/// Builds the built-in scene of that name.
 #[must_use]
 pub fn build(name: &str) -> Option<Result<Scene, ImportError>> {
-    TABLE.iter().find(|scene| scene.name == name).map(|scene| (scene.build)())
+    find(name).map(|scene| (scene.build)())
 }
