@@ -15,19 +15,20 @@ use super::skeleton::{CHEST, HEAD, JOINTS, LEFT_ARM, LEFT_THIGH, PELVIS, PERIOD,
 use super::soup::{Shape, lathe};
 
 /// A cone with round ends that moves with a joint.
-struct Part {
-    joint: usize,
-    from: (DVec3, f64),
-    to: (DVec3, f64),
+pub struct Part {
+    pub joint: usize,
+    /// Its ends, and how thick it is there.
+    pub from: (DVec3, f64),
+    pub to: (DVec3, f64),
     /// Scales z before measuring: flat chests, long feet.
-    flat: f64,
-    color: [f64; 3],
+    pub flat: f64,
+    pub color: [f64; 3],
 }
 
-const SKIN: [f64; 3] = [0.50, 0.27, 0.16];
+pub const SKIN: [f64; 3] = [0.50, 0.27, 0.16];
 const SHIRT: [f64; 3] = [0.17, 0.11, 0.07];
 const TROUSERS: [f64; 3] = [0.09, 0.12, 0.19];
-const BOOTS: [f64; 3] = [0.10, 0.055, 0.03];
+pub const BOOTS: [f64; 3] = [0.10, 0.055, 0.03];
 
 fn parts() -> Vec<Part> {
     let v = DVec3::new;
@@ -168,6 +169,20 @@ fn paint(color: [f64; 3]) -> [u8; 3] {
     color.map(|c| (c * 255.0).round() as u8)
 }
 
+/// The body's surface, a vertex about every `size` metres, and what its vertices hang on.
+pub fn skinned(parts: &[Part], size: f64) -> (Shape, Vec<Binding>) {
+    let f = |p: DVec3| body(parts, p);
+    let cells = |metres: f64| (metres / size).round() as i32;
+    let cells = IVec3::new(cells(1.296), cells(1.872), cells(0.432));
+    let low = DVec3::new(-0.5 * size * f64::from(cells.x), -0.0205, -0.190);
+    let mut shape = surface_nets(&f, low, cells, size);
+    let nearest = |p: DVec3| parts.iter().min_by(|a, b| a.distance(p).total_cmp(&b.distance(p))).map_or(SKIN, |part| part.color);
+    shape.colors = shape.positions.iter().map(|&p| paint(nearest(p))).collect();
+    shape.uvs = vec![DVec2::ZERO; shape.positions.len()];
+    let bindings = shape.positions.iter().map(|&p| bind(parts, p)).collect();
+    (shape, bindings)
+}
+
 /// A brim that droops all round, and a crown with a dent.
 fn hat() -> Shape {
     let profile: Vec<DVec2> = [
@@ -227,16 +242,7 @@ fn cape() -> Shape {
 
 /// The figure at the origin with an animation `walk` that stays on the spot.
 pub fn file() -> Vec<u8> {
-    let parts = parts();
-    let f = |p: DVec3| body(&parts, p);
-    let size = 0.036;
-    let cells = IVec3::new(36, 52, 12);
-    let low = DVec3::new(-0.5 * size * 36.0, -0.0205, -0.190);
-    let mut shape = surface_nets(&f, low, cells, size);
-    let nearest = |p: DVec3| parts.iter().min_by(|a, b| a.distance(p).total_cmp(&b.distance(p))).map_or(SKIN, |part| part.color);
-    shape.colors = shape.positions.iter().map(|&p| paint(nearest(p))).collect();
-    shape.uvs = vec![DVec2::ZERO; shape.positions.len()];
-    let mut binding: Vec<Binding> = shape.positions.iter().map(|&p| bind(&parts, p)).collect();
+    let (mut shape, mut binding) = skinned(&parts(), 0.036);
     for (extra, joint) in [(hat(), HEAD), (cape(), CHEST)] {
         let first = shape.positions.len() as u32;
         binding.extend(extra.positions.iter().map(|_| ([joint as u8, 0, 0, 0], [1.0, 0.0, 0.0, 0.0])));
@@ -246,10 +252,15 @@ pub fn file() -> Vec<u8> {
         shape.colors.extend(extra.colors);
         shape.uvs.extend(extra.uvs);
     }
-
     let mut glb = Glb::default();
     let cloth = glb.material(&Look { name: "cloth", color: [1.0; 3], roughness: 0.8, ..Look::default() });
-    let mesh = glb.mesh("walker", &[(shape, cloth)], Some(&binding));
+    let mesh = glb.mesh("walker", &[(shape, cloth)], &[&binding]);
+    show_walking(&mut glb, "walker", mesh);
+    glb.finish()
+}
+
+/// A node that shows the skinned mesh, its bones, and the animation that moves them.
+pub fn show_walking(glb: &mut Glb, name: &str, mesh: usize) {
     for (i, (name, parent, place)) in JOINTS.iter().enumerate() {
         let local = *place - parent.map_or(DVec3::ZERO, |parent| JOINTS[parent].2);
         let children: Vec<usize> = (0..JOINTS.len()).filter(|&j| JOINTS[j].1 == Some(i)).collect();
@@ -262,7 +273,7 @@ pub fn file() -> Vec<u8> {
     let joints: Vec<usize> = (0..JOINTS.len()).collect();
     let inverse_bind = JOINTS.map(|(_, _, place)| DMat4::from_translation(-place));
     let skin = glb.skin(&joints, &inverse_bind);
-    glb.node(json!({"name": "walker", "mesh": mesh, "skin": skin}));
+    glb.node(json!({"name": name, "mesh": mesh, "skin": skin}));
 
     const KEYS: usize = 32;
     let times: Vec<f32> = (0..=KEYS).map(|k| (PERIOD * k as f64 / KEYS as f64) as f32).collect();
@@ -271,5 +282,4 @@ pub fn file() -> Vec<u8> {
         joints.iter().map(|&j| (j, stances.iter().map(|s| s.rotations[j]).collect())).collect();
     let places: Vec<DVec3> = stances.iter().map(|s| s.pelvis).collect();
     glb.animation("walk", &times, &rotations, &[(PELVIS, places)]);
-    glb.finish()
 }

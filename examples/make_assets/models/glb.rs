@@ -109,11 +109,11 @@ impl Glb {
         self.push("materials", material)
     }
 
-    /// One mesh of several shapes, each with its material; texture coordinates and colours only
-    /// where a shape has some.
-    pub fn mesh(&mut self, name: &str, parts: &[(Shape, usize)], binding: Option<&[Binding]>) -> usize {
+    /// One mesh of several shapes, each with its material, and where it is skinned each with its
+    /// bindings; texture coordinates and colours only where a shape has some.
+    pub fn mesh(&mut self, name: &str, parts: &[(Shape, usize)], bindings: &[&[Binding]]) -> usize {
         let mut primitives = Vec::new();
-        for (shape, material) in parts {
+        for (i, (shape, material)) in parts.iter().enumerate() {
             let target = Some(ARRAY_BUFFER);
             let positions: Vec<_> = shape.positions.iter().map(|p| p.as_vec3().to_array()).collect();
             let normals: Vec<_> = shape.normals.iter().map(|n| n.as_vec3().to_array()).collect();
@@ -131,7 +131,7 @@ impl Glb {
                 let accessor = json!({"bufferView": view, "componentType": UNSIGNED_BYTE, "normalized": true, "count": shape.colors.len(), "type": "VEC4"});
                 attributes["COLOR_0"] = json!(self.push("accessors", accessor));
             }
-            if let Some(binding) = binding {
+            if let Some(binding) = bindings.get(i) {
                 let joints: Vec<u8> = binding.iter().flat_map(|b| b.0).collect();
                 let view = self.view(&joints, target);
                 let accessor =
@@ -162,13 +162,13 @@ impl Glb {
 
     /// A node at the origin that shows a mesh.
     pub fn show(&mut self, name: &str, parts: &[(Shape, usize)]) -> usize {
-        let mesh = self.mesh(name, parts, None);
+        let mesh = self.mesh(name, parts, &[]);
         self.node(json!({"name": name, "mesh": mesh}))
     }
 
     /// As [`Self::show`], for what casts no shadow.
     pub fn show_without_shadow(&mut self, name: &str, parts: &[(Shape, usize)]) -> usize {
-        let mesh = self.mesh(name, parts, None);
+        let mesh = self.mesh(name, parts, &[]);
         self.node(json!({"name": name, "mesh": mesh, "extras": {"casts_shadow": false}}))
     }
 

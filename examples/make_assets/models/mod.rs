@@ -1,14 +1,17 @@
 //! Every model file: its name and its bytes. Units are metres, +Y is up, models stand on y = 0.
 
 mod architecture;
+mod cathedral;
 mod figure;
 mod furniture;
 mod glb;
 mod math;
+mod pilgrim;
 mod polygon;
 mod skeleton;
 mod solids;
 mod soup;
+mod stained_glass;
 mod stairs;
 mod teapot;
 mod texture;
@@ -26,5 +29,7 @@ pub fn all() -> Vec<(&'static str, Vec<u8>)> {
         ("walker.glb", figure::file()),
         ("toys.glb", toys::file()),
         ("stairs.glb", stairs::file()),
+        ("pilgrim.glb", pilgrim::file()),
+        ("cathedral.glb", cathedral::file()),
     ]
 }

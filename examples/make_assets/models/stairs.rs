@@ -48,7 +48,7 @@ const TERRACE_DEPTH: f64 = 2.4;
 const COURT: f64 = 20.0;
 /// Where the court ends, and the steps that lead down from it.
 const COURT_END: f64 = 44.0;
-const COURT_WIDTH: f64 = 48.0;
+const COURT_WIDTH: f64 = 120.0;
 const LOW_STEPS: usize = 10;
 const LOW_RUN: f64 = 0.42;
 
@@ -124,7 +124,7 @@ fn obelisk() -> Soup {
 
 /// The stone's brightness varies a little from place to place.
 fn weathered(soup: Soup, which: i64) -> Soup {
-    let tone = 0.90 + 0.10 * hash(which, 5, 90);
+    let tone = 0.95 + 0.05 * hash(which, 5, 90);
     soup.painted(move |_| [tone, tone * (0.97 + 0.03 * hash(which, 6, 90)), tone * (0.92 + 0.05 * hash(which, 7, 90))])
 }
 
@@ -138,7 +138,7 @@ pub fn file() -> Vec<u8> {
     let place = |glb: &mut Glb, name: &str, mesh: usize, p: DVec3| {
         glb.node(json!({"name": name, "mesh": mesh, "translation": p.as_vec3().to_array()}));
     };
-    let made = |glb: &mut Glb, name: &str, soup: Soup, material: usize| glb.mesh(name, &[(soup.creased(0.9), material)], None);
+    let made = |glb: &mut Glb, name: &str, soup: Soup, material: usize| glb.mesh(name, &[(soup.creased(0.9), material)], &[]);
 
     let steps = steps();
     let top = DVec2::new(steps[0].0.x - steps[0].1, steps[0].0.y + RISE);

@@ -164,6 +164,38 @@ pub fn sandstone() -> Vec<u8> {
     })
 }
 
+/// A floor of cut stones: porphyry discs in pale rings, tied by bands, green squares between them.
+pub fn mosaic() -> Vec<u8> {
+    png(512, |p| {
+        let (cream, porphyry, serpentine, gold) =
+            ([0.86, 0.80, 0.69], [0.46, 0.17, 0.14], [0.16, 0.29, 0.24], [0.74, 0.56, 0.30]);
+        let q = (p - 0.5).abs(); // the tile is the same in all quarters; its disc is in the middle
+        let r = q.length();
+        let corner = (DVec2::splat(0.5) - q).length();
+        let diamond = q.x + q.y;
+        // Soft edges a pixel wide: 1 inside.
+        let below = |x: f64, edge: f64| 1.0 - smoothstep(edge - 0.003, edge + 0.003, x);
+        let chips = |t: f64, n: f64| below((t * n - (t * n).floor() - 0.5).abs(), 0.25);
+        let mut color = mix(cream, scale(cream, 0.90), below((q.x - q.y).abs(), 0.10));
+        color = mix(color, serpentine, below(corner, 0.20));
+        color = mix(color, gold, below(corner, 0.150));
+        color = mix(color, porphyry, below(corner, 0.125));
+        color = mix(color, cream, below(corner, 0.045));
+        color = mix(color, [0.80, 0.73, 0.61], below(diamond, 0.44));
+        let ring = mix(serpentine, gold, chips((q.y.max(1e-9) / (q.x + q.y).max(1e-9)) * 0.999, 5.0));
+        color = mix(color, cream, below(r, 0.335));
+        color = mix(color, ring, below(r, 0.320));
+        color = mix(color, cream, below(r, 0.262));
+        color = mix(color, porphyry, below(r, 0.247));
+        color = mix(color, scale(porphyry, 1.25), below((r - 0.12).abs(), 0.012));
+        let band = below(0.5 - q.x.max(q.y), 0.014);
+        color = mix(color, [0.40, 0.36, 0.31], band);
+        let tone = 0.88 + 0.18 * clouds(p * 8.0, 8, 120) + 0.06 * (noise(p * 96.0, 96, 125) - 0.5);
+        let vein = veins(p * 4.0, 4, 130);
+        mix(scale(color, tone), [0.85, 0.80, 0.74], vein * 0.14)
+    })
+}
+
 /// Worn lime plaster, a grey that a base colour tints.
 pub fn plaster() -> Vec<u8> {
     png(256, |p| {

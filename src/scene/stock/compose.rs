@@ -27,7 +27,8 @@ pub(super) type Model = (&'static str, &'static [u8]);
 
 /// All of them.
 #[cfg(test)]
-pub(super) const MODELS: [Model; 9] = [SOLIDS, TEAPOT, CUTOUT, FLOORS, ARCHITECTURE, FURNITURE, WALKER, STAIRS, TOYS];
+pub(super) const MODELS: [Model; 11] =
+    [SOLIDS, TEAPOT, CUTOUT, FLOORS, ARCHITECTURE, FURNITURE, WALKER, STAIRS, TOYS, PILGRIM, CATHEDRAL];
 
 pub(super) const SOLIDS: Model = model!("solids");
 pub(super) const TEAPOT: Model = model!("teapot");
@@ -38,6 +39,8 @@ pub(super) const FURNITURE: Model = model!("furniture");
 pub(super) const WALKER: Model = model!("walker");
 pub(super) const STAIRS: Model = model!("stairs");
 pub(super) const TOYS: Model = model!("toys");
+pub(super) const PILGRIM: Model = model!("pilgrim");
+pub(super) const CATHEDRAL: Model = model!("cathedral");
 
 /// Seconds the walker takes for two steps, as its model says.
 pub(super) const STRIDE_SECONDS: f64 = 1.16;
@@ -276,6 +279,44 @@ impl Composer {
         }
         self.libraries = libraries;
         root
+    }
+
+    /// Gives a figure's parts of the material `part` another colour; call it right after placing the figure.
+    pub(super) fn dyed(&mut self, figure: usize, part: &str, color: [f32; 3]) {
+        let [r, g, b] = color;
+        for node in figure + 1..self.scene.nodes.len() {
+            let Some(mesh) = self.scene.nodes[node].mesh else { continue };
+            let prop = self.remade(Prop { mesh, casts_shadow: true }, |material| {
+                if material.name == part {
+                    material.base_color = Vec4::new(r, g, b, 1.0);
+                }
+            });
+            self.scene.nodes[node].mesh = Some(prop.mesh);
+        }
+    }
+
+    /// Starts a figure's own animation this part of its loop later, so that it is out of step with its like.
+    pub(super) fn out_of_step(&mut self, name: &str, turns: f64) {
+        for animation in self.scene.animations.iter_mut().filter(|animation| animation.name == format!("{name}: walk")) {
+            for channel in &mut animation.channels {
+                let (mut shifted, mut value) = (Vec::new(), Vec::new());
+                for &time in &channel.times {
+                    channel
+                        .sample((f64::from(time) / animation.duration + turns).rem_euclid(1.0) * animation.duration, &mut value);
+                    shifted.extend(value.iter().map(|&v| v as f32));
+                }
+                channel.values = shifted;
+            }
+        }
+    }
+
+    /// A part that shines of itself in its own colours, this many times as bright; it casts no shadow.
+    pub(super) fn luminous(&mut self, prop: Prop, factor: f32) -> Prop {
+        let prop = self.remade(prop, |material| {
+            material.unlit = true;
+            material.base_color = Vec4::new(factor, factor, factor, 1.0);
+        });
+        Prop { casts_shadow: false, ..prop }
     }
 
     /// A light at a node's origin, shining along its -Z where it has a direction.

@@ -1,5 +1,6 @@
 //! The built-in scenes, composed from the models in `assets/`, one file each.
 
+mod cathedral;
 mod compose;
 mod courtyard;
 mod cubes;
@@ -52,6 +53,11 @@ pub static TABLE: &[StockScene] = &[
         name: "eye-in-shadow",
         about: "the camera stands in the shadow of a great disc and looks to the light: plain z-pass fails here",
         build: eye_in_shadow::build,
+    },
+    StockScene {
+        name: "cathedral",
+        about: "a Gothic nave: three pilgrims, a swinging crown of light, a red and a green lamp in the aisles (McGuire et al. 2003, images 1 to 7)",
+        build: cathedral::build,
     },
     StockScene {
         name: "stairs",
