@@ -13,6 +13,8 @@ pub struct Capabilities {
     pub timestamps: bool,
     /// Four samples a pixel can be drawn and resolved in every format needed.
     pub four_samples: bool,
+    /// Depth can be kept in floats (`DEPTH32FLOAT_STENCIL8`).
+    pub float_depth: bool,
     /// Pixels a side.
     pub max_size: u32,
 }
@@ -30,7 +32,14 @@ impl Capabilities {
     /// A device that can do everything: for planning without one.
     #[must_use]
     pub fn complete() -> Self {
-        Self { adapter: "none".into(), depth_clip_control: true, timestamps: true, four_samples: true, max_size: 8192 }
+        Self {
+            adapter: "none".into(),
+            depth_clip_control: true,
+            timestamps: true,
+            four_samples: true,
+            float_depth: true,
+            max_size: 8192,
+        }
     }
 
     /// What is missing, and what replaces it.
@@ -42,6 +51,13 @@ impl Capabilities {
                 Lack { feature: "depth clamp (DEPTH_CLIP_CONTROL)", instead: "exact z-pass counts every caster by z-fail" },
             ),
             (self.timestamps, Lack { feature: "GPU timestamps (TIMESTAMP_QUERY)", instead: "only CPU time is shown" }),
+            (
+                self.float_depth,
+                Lack {
+                    feature: "float depth (DEPTH32FLOAT_STENCIL8)",
+                    instead: "24 bits are used: single pixels a hair from a volume's face may be wrong",
+                },
+            ),
             (self.four_samples, Lack { feature: "4 samples a pixel", instead: "1 sample is used" }),
         ]
         .into_iter()

@@ -70,8 +70,17 @@ pub const fn color_format(accumulation: Accumulation) -> wgpu::TextureFormat {
 }
 /// The mean of many frames: one of a thousand must not be lost in it.
 pub const MEAN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
-/// Depth and stencil of the scene (DESIGN section 3).
-pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth24PlusStencil8;
+
+/// Depth and stencil of the scene. Floats where the device has them: reverse-Z puts the far end near
+/// zero, where 24 fixed bits are coarse and surfaces a hair from a volume's face fall on its wrong side
+/// (measured against exact rays: 102 wrong pixels of a million became 1).
+const fn depth_format(features: wgpu::Features) -> wgpu::TextureFormat {
+    if features.contains(wgpu::Features::DEPTH32FLOAT_STENCIL8) {
+        wgpu::TextureFormat::Depth32FloatStencil8
+    } else {
+        wgpu::TextureFormat::Depth24PlusStencil8
+    }
+}
 
 impl Context {
     /// A device without a window; `adapter` is part of the wanted adapter's name.
@@ -133,10 +142,17 @@ impl Context {
             adapter: format!("{} ({})", info.name, info.backend),
             depth_clip_control: features.contains(wgpu::Features::DEPTH_CLIP_CONTROL),
             timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),
-            four_samples: four(COLOR_FORMAT) && four(DEPTH_FORMAT),
+            four_samples: four(COLOR_FORMAT) && four(depth_format(features)),
+            float_depth: features.contains(wgpu::Features::DEPTH32FLOAT_STENCIL8),
             max_size: limits.max_texture_dimension_2d,
         };
         Ok(Self { instance, adapter, device, queue, capabilities, watch })
+    }
+
+    /// The format of the scene's depth and stencil.
+    #[must_use]
+    pub fn depth_format(&self) -> wgpu::TextureFormat {
+        depth_format(self.device.features())
     }
 
     /// What the device can do.
@@ -197,7 +213,8 @@ impl Watch {
 }
 
 /// Used where the device has them; [`Capabilities::lacks`] says what replaces them.
-const WANTED_FEATURES: wgpu::Features = wgpu::Features::DEPTH_CLIP_CONTROL.union(wgpu::Features::TIMESTAMP_QUERY);
+const WANTED_FEATURES: wgpu::Features =
+    wgpu::Features::DEPTH_CLIP_CONTROL.union(wgpu::Features::DEPTH32FLOAT_STENCIL8).union(wgpu::Features::TIMESTAMP_QUERY);
 
 fn new_instance() -> wgpu::Instance {
     wgpu::Instance::new(wgpu::InstanceDescriptor {

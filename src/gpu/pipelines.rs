@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::context::{Context, DEPTH_FORMAT, GpuError, MEAN_FORMAT, color_format};
+use super::context::{Context, GpuError, MEAN_FORMAT, color_format};
 use super::shaders::{Library, Override, Vertices, entry_of};
 use super::types::{Attributes, Draw, Frame, LabelVertex, Light, Material, Object, Volume};
 use crate::frame::state::{Blend, Compare, Cull, DepthBias, NearPlane, State, Winding};
@@ -250,7 +250,7 @@ impl Pipelines {
                 unclipped_depth: key.state.near_plane == NearPlane::Clamp,
                 ..Default::default()
             },
-            depth_stencil: in_scene.then(|| depth_stencil(&key.state)),
+            depth_stencil: in_scene.then(|| depth_stencil(&key.state, context.depth_format())),
             multisample: wgpu::MultisampleState { count: if in_scene { key.samples } else { 1 }, ..Default::default() },
             fragment: Some(wgpu::FragmentState {
                 module,
@@ -345,9 +345,9 @@ fn blend(blend: Blend) -> Option<wgpu::BlendState> {
     }
 }
 
-fn depth_stencil(state: &State) -> wgpu::DepthStencilState {
+fn depth_stencil(state: &State, format: wgpu::TextureFormat) -> wgpu::DepthStencilState {
     wgpu::DepthStencilState {
-        format: DEPTH_FORMAT,
+        format,
         depth_write_enabled: Some(state.depth.write),
         depth_compare: Some(compare(state.depth.compare)),
         stencil: wgpu::StencilState {

@@ -1,6 +1,6 @@
 //! What the scene is drawn into: made in one place, for a size and sample count.
 
-use super::context::{Context, DEPTH_FORMAT, GpuError, MEAN_FORMAT, color_format};
+use super::context::{Context, GpuError, MEAN_FORMAT, color_format};
 use crate::frame::FramePlan;
 use crate::settings::Accumulation;
 
@@ -83,14 +83,15 @@ impl Targets {
         let color = texture(context, "scene colour", size, samples, format, if one { read } else { attachment });
         let resolved = (!one).then(|| texture(context, "scene colour, resolved", size, 1, format, read));
         let depth_usage = if one { read | wgpu::TextureUsages::COPY_SRC } else { attachment };
-        let depth_stencil_texture = texture(context, "scene depth and stencil", size, samples, DEPTH_FORMAT, depth_usage);
+        let depth_stencil_texture =
+            texture(context, "scene depth and stencil", size, samples, context.depth_format(), depth_usage);
         let color = color.create_view(&Default::default());
         let resolved = resolved.map(|texture| texture.create_view(&Default::default()));
         let depth_stencil = depth_stencil_texture.create_view(&Default::default());
 
         // With several samples nothing reads the stencil (the plan sees to it): a stand-in is bound.
-        let stand_in =
-            (!one).then(|| texture(context, "no stencil", [1, 1], 1, DEPTH_FORMAT, wgpu::TextureUsages::TEXTURE_BINDING));
+        let stand_in = (!one)
+            .then(|| texture(context, "no stencil", [1, 1], 1, context.depth_format(), wgpu::TextureUsages::TEXTURE_BINDING));
         let stencil = stand_in
             .as_ref()
             .unwrap_or(&depth_stencil_texture)
