@@ -3,10 +3,14 @@
 
 mod common;
 
-use common::{Build, Stage, assert_exact, cube, seen_from};
+use std::collections::BTreeMap;
+
+use common::{Build, Stage, assert_exact, cube, mesh, seen_from, square};
 use glam::DVec3;
-use obscura::scene::Scene;
+use obscura::frame::Camera;
+use obscura::scene::{AlphaMode, PosedLight, Scene, pose, stock};
 use obscura::settings::{Settings, Technique};
+use obscura::truth::{Verdict, World};
 
 const EXACT: [Technique; 2] = [Technique::ZFail, Technique::ExactZPass];
 
@@ -35,4 +39,140 @@ fn z_pass_is_found_wrong_with_the_eye_in_shadow() {
     stage.set_scene(&scene);
     let [ref found] = stage.verify(&Settings { technique: Technique::ZPass, ..settings }, &scene)[..] else { panic!() };
     assert!(found.wrong() > 1000, "{} wrong of {}", found.wrong(), found.decided);
+}
+
+/// A floor at 0 and a square of side 2 above it at 2, drawn from both sides; the lamp straight above.
+fn sheet_over_floor(material: usize) -> Build {
+    let mut build = Build::new();
+    build.floor(0.0, 30.0);
+    let sheet = build.mesh(square(material));
+    build.place(sheet, DVec3::new(0.0, 2.0, 0.0), DVec3::ONE);
+    build
+}
+
+/// The verdict on the middle of the picture seen from `eye` to `target`.
+fn middle(scene: &Scene, eye: DVec3, target: DVec3) -> Verdict {
+    let pose = pose::pose(scene, 0.0, scene.default_animation, &BTreeMap::new());
+    let camera = Camera::look_at(eye, target, 0.6, 1.0, 0.1).unwrap();
+    let verdicts = World::new(scene, &pose).judge(&camera, &pose.lights[0], [33, 33]);
+    assert_eq!(verdicts.size(), [33, 33]);
+    verdicts.pixels()[16 * 33 + 16]
+}
+
+#[test]
+fn rays_tell_lit_from_shadow_and_both_sides_of_a_sheet() {
+    let mut build = sheet_over_floor(1);
+    build.point_light(DVec3::new(0.01, 6.0, 0.02));
+    let scene = build.0;
+    let from = |eye: DVec3, target: DVec3| middle(&scene, eye, target);
+    assert_eq!(from(DVec3::new(4.0, 1.0, 0.0), DVec3::new(0.2, 0.0, 0.1)), Verdict::Shadow, "beneath the sheet");
+    assert_eq!(from(DVec3::new(4.0, 1.0, 0.0), DVec3::new(2.5, 0.0, 0.1)), Verdict::Lit, "beside its shadow");
+    assert_eq!(from(DVec3::new(0.5, 5.0, 0.5), DVec3::new(0.3, 2.0, 0.3)), Verdict::Lit, "the sheet from above");
+    assert_eq!(from(DVec3::new(0.5, 0.5, 0.5), DVec3::new(0.3, 2.0, 0.3)), Verdict::Shadow, "its dark side");
+    assert_eq!(from(DVec3::new(0.5, 1.0, 0.5), DVec3::new(9.0, 5.0, 0.3)), Verdict::Nothing, "the sky");
+    // Twice the sheet's side, for the lamp is 4 above it and 6 above the floor: a shadow of 1.5.
+    assert_eq!(from(DVec3::new(4.0, 3.0, 0.0), DVec3::new(1.49, 0.0, 0.0)), Verdict::Edge);
+}
+
+#[test]
+fn rays_know_culling_the_near_plane_and_what_is_blended() {
+    let below = (DVec3::new(0.5, 0.5, 0.5), DVec3::new(0.3, 2.0, 0.3));
+    let mut build = sheet_over_floor(0);
+    build.point_light(DVec3::new(0.01, 6.0, 0.02));
+    assert_eq!(middle(&build.0, below.0, below.1), Verdict::Nothing, "culled from behind");
+    let beneath = (DVec3::new(4.0, 1.0, 0.0), DVec3::new(0.2, 0.0, 0.1));
+    assert_eq!(middle(&build.0, beneath.0, beneath.1), Verdict::Shadow, "but it casts");
+    // Closer than the near plane: seen through.
+    let close = DVec3::new(0.3, 2.05, 0.3);
+    assert_eq!(middle(&build.0, close, DVec3::new(0.3, 0.0, 0.31)), Verdict::Shadow, "the floor below");
+    build.0.materials[0].double_sided = true;
+    build.0.materials[0].alpha = AlphaMode::Blend;
+    assert_eq!(middle(&build.0, below.0, below.1), Verdict::Nothing, "blended surfaces are none");
+}
+
+#[test]
+fn rays_know_a_light_s_range_and_one_without_shadows() {
+    let mut build = sheet_over_floor(1);
+    let light = build.point_light(DVec3::new(0.01, 6.0, 0.02));
+    build.0.lights[light].range = 7.0;
+    let eye = DVec3::new(4.0, 1.0, 0.0);
+    assert_eq!(middle(&build.0, eye, DVec3::new(2.5, 0.0, 0.1)), Verdict::Lit);
+    assert_eq!(middle(&build.0, eye, DVec3::new(9.0, 0.0, 0.1)), Verdict::OutOfRange);
+    let pose = pose::pose(&build.0, 0.0, build.0.default_animation, &BTreeMap::new());
+    let camera = Camera::look_at(eye, DVec3::new(0.2, 0.0, 0.1), 0.6, 1.0, 0.1).unwrap();
+    let world = World::new(&build.0, &pose);
+    let shine = PosedLight { shadows: false, ..pose.lights[light] };
+    assert_eq!(world.judge(&camera, &shine, [33, 33]).pixels()[16 * 33 + 16], Verdict::Lit);
+    assert!(world.shades(DVec3::new(0.2, 1.0, 0.1), &pose.lights[light]));
+    assert!(!world.shades(DVec3::new(0.2, 3.0, 0.1), &pose.lights[light]));
+}
+
+#[test]
+fn a_light_inside_a_solid_shines_out_and_one_inside_soup_is_shut_in() {
+    for (solid, expected) in [(true, Verdict::Lit), (false, Verdict::Shadow)] {
+        let mut build = Build::new();
+        build.floor(0.0, 30.0);
+        let mut lamp = cube(0);
+        if !solid {
+            // One face less: every triangle counts, from whichever side.
+            let few = lamp.indices[6..].as_chunks::<3>().0.to_vec();
+            let corners: Vec<_> = lamp.positions.iter().map(|corner| corner.to_array()).collect();
+            lamp = mesh("open", &corners, &few, 0);
+        }
+        assert_eq!(lamp.topology.report().is_solid(), solid);
+        let lamp = build.mesh(lamp);
+        build.place(lamp, DVec3::new(0.0, 2.0, 0.0), DVec3::ONE);
+        build.point_light(DVec3::new(0.0, 2.0, 0.0));
+        assert_eq!(middle(&build.0, DVec3::new(6.0, 1.0, 0.0), DVec3::new(2.3, 0.0, 0.9)), expected, "solid: {solid}");
+    }
+}
+
+#[test]
+fn many_lights_at_once_are_judged_as_each_alone_and_work_can_be_called_off() {
+    let scene = stock::build("teapots").unwrap().unwrap();
+    let pose = pose::pose(&scene, 1.0, scene.default_animation, &BTreeMap::new());
+    let camera = Camera::choose(&Settings::default(), &scene, &pose).unwrap();
+    let world = World::new(&scene, &pose);
+    let all = world.judge_lights(&camera, &pose.lights, [64, 36], &|_| true).unwrap();
+    assert_eq!(all.len(), scene.lights.len());
+    for (verdicts, light) in all.iter().zip(&pose.lights) {
+        assert_eq!(*verdicts, world.judge(&camera, light, [64, 36]));
+    }
+    assert!(world.judge_lights(&camera, &pose.lights, [64, 36], &|share| share < 0.5).is_none());
+}
+
+/// The tree changes nothing: each ray finds what a look at every triangle finds.
+#[test]
+fn the_tree_finds_what_every_triangle_tells() {
+    let scene = stock::build("courtyard").unwrap().unwrap();
+    let pose = pose::pose(&scene, 3.0, scene.default_animation, &BTreeMap::new());
+    let world = World::new(&scene, &pose);
+    let light = &pose.lights[0];
+    let mut soup = Vec::new();
+    for (node_index, _, mesh) in scene.instances().filter(|(_, node, _)| node.casts_shadow) {
+        let positions = pose.positions(&scene, node_index);
+        let to_world = pose.world_from_object[node_index];
+        let mirrored = to_world.matrix3.determinant() < 0.0;
+        for (&triangle, &both) in mesh.topology.mesh_triangles().iter().zip(mesh.topology.two_sided()) {
+            let corner = |at: u32| positions[mesh.indices[(triangle * 3 + at) as usize] as usize].as_dvec3();
+            soup.push(([0, 1, 2].map(|at| to_world.transform_point3(corner(at))), both, mirrored));
+        }
+    }
+    let mut random = fastrand::Rng::with_seed(5);
+    let (mut dark, points) = (0, 1500);
+    for _ in 0..points {
+        let at = DVec3::new(random.f64() * 14.0 - 7.0, random.f64() * 5.0, random.f64() * 10.0 - 5.0);
+        let way = light.position - at;
+        let crossed = soup.iter().any(|&([a, b, c], both, mirrored)| {
+            // By volumes of tetrahedra, where the caster has products of its own.
+            let side = |p: DVec3, q: DVec3, r: DVec3| (q - p).cross(r - p);
+            let (from, to) = (side(a, b, c).dot(at - a), side(a, b, c).dot(light.position - a));
+            let turns = [way.dot((a - at).cross(b - at)), way.dot((b - at).cross(c - at)), way.dot((c - at).cross(a - at))];
+            let through = turns.iter().all(|turn| *turn > 0.0) || turns.iter().all(|turn| *turn < 0.0);
+            through && from * to < 0.0 && (both || (to > 0.0) != mirrored)
+        });
+        assert_eq!(world.shades(at, light), crossed, "{at}");
+        dark += usize::from(crossed);
+    }
+    assert!(dark > 60 && dark < points - 60, "{dark}");
 }

@@ -11,12 +11,14 @@ use obscura::app::control::Mode;
 use obscura::app::keys;
 use obscura::app::store::Preferences;
 use obscura::app::ui::{Action, Desk, FrameNumbers, History, Notice, Panel, Tone, Topic, View, project, style};
+use obscura::app::verify::{Finding, Verification};
 use obscura::failures;
 use obscura::frame::{Camera, Capabilities};
 use obscura::scene::stock::StockScene;
 use obscura::scene::{self, Light, LightKind, Node, Pose, PosedLight, Scene};
 use obscura::settings::{CameraChoice, Failure, LightEdit, SceneChoice, Settings, Show, Technique};
 use obscura::techniques::TABLE;
+use obscura::truth::{Comparison, Wrong, WrongPixel};
 
 /// Everything around the panel that the window would hold.
 struct Bench {
@@ -28,6 +30,7 @@ struct Bench {
     notices: Vec<Notice>,
     capabilities: Capabilities,
     history: History,
+    verification: Verification,
     actions: Vec<Action>,
     picture: egui::Rect,
 }
@@ -86,6 +89,7 @@ impl Bench {
             notices: Vec::new(),
             capabilities: Capabilities::complete(),
             history: History::default(),
+            verification: Verification::default(),
             actions: Vec::new(),
             picture: egui::Rect::NOTHING,
         }
@@ -102,6 +106,7 @@ impl Bench {
             notices: &self.notices,
             capabilities: Some(&self.capabilities),
             history: &self.history,
+            verification: &self.verification,
             picture: None,
         };
         let desk = Desk { settings: &mut self.settings, preferences: &mut self.preferences };
@@ -480,4 +485,22 @@ fn the_frame_is_told_in_numbers() {
     for number in ["1.25 ms", "7.50 ms", "321", "1 234 567", "42", "98 765"] {
         assert!(harness.query_by_label(number).is_some(), "{number}");
     }
+}
+
+#[test]
+fn a_view_is_verified_and_says_what_was_found_until_it_changes() {
+    let mut harness = open(Bench::new());
+    click(&mut harness, "Verify this view");
+    assert!(harness.state().actions.contains(&Action::Verify));
+    let pixels = vec![WrongPixel { x: 3, y: 4, how: Wrong::Lit }];
+    let found = Comparison { decided: 900, lit: 500, shadow: 300, edges: 77, grazing: 5, pixels: pixels.clone() };
+    let settings = harness.state().settings.clone();
+    harness.state_mut().verification =
+        Verification::found(Finding { settings, lights: vec![("lamp".into(), found)], wrong: pixels });
+    harness.run_steps(2);
+    let words = "lamp: 900 decided, 77 edges, 5 grazing, 1 wrong";
+    assert!(harness.query_by_label_contains(words).is_some());
+    harness.state_mut().settings.fov = Some(33.0);
+    harness.run_steps(2);
+    assert!(harness.query_by_label_contains(words).is_none(), "of another view it says nothing");
 }

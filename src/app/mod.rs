@@ -10,6 +10,7 @@
 //! - [`surface`] decides what to do about the window's surface, [`pace`] when to draw: both
 //!   without a GPU;
 //! - [`control`], [`keys`] and [`clock`] turn input into settings, [`ui`] is the panel;
+//! - [`verify`] holds the picture against exact rays;
 //! - [`store`] keeps settings between runs, `session` holds what is shown, without a window;
 //! - [`device`] is everything that is lost with the device, `shell` the loop around it all.
 
@@ -24,6 +25,7 @@ mod shell;
 pub mod store;
 pub mod surface;
 pub mod ui;
+pub mod verify;
 
 use thiserror::Error;
 use winit::event_loop::{EventLoop, EventLoopProxy};
@@ -75,6 +77,8 @@ pub(crate) enum Wake {
     Scene,
     /// The device was lost.
     Device,
+    /// Rays have something to say.
+    Verified,
 }
 
 /// What the window starts with: the last run's settings, and over them what the arguments say.

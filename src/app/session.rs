@@ -1,8 +1,10 @@
 //! What is shown, without the window: settings, scene, notices, and the last frame's plan.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::ui::{self, Action, History, Notice, Panel, Tone, Topic, View};
+use super::verify::Verification;
 use super::{WindowOptions, photo, store};
 use crate::cli::render_command;
 use crate::failures::demonstration;
@@ -17,7 +19,7 @@ const GOOD_NEWS: Duration = Duration::from_secs(8);
 
 /// The scene that is drawn.
 pub(super) struct Loaded {
-    pub scene: Scene,
+    pub scene: Arc<Scene>,
     doctor: String,
     floor: bool,
 }
@@ -53,6 +55,8 @@ pub(super) struct Session {
     pub drawn_from: Option<Settings>,
     /// The next of the frames that are gathered while nothing changes; none where all are there.
     pub next_frame: Option<u32>,
+    /// The picture against exact rays, where that was asked for.
+    pub verification: Verification,
     notices: Vec<Notice>,
     /// When good news go by themselves.
     passing: Vec<(Topic, Instant)>,
@@ -77,6 +81,7 @@ impl Session {
             drawn: None,
             drawn_from: None,
             next_frame: None,
+            verification: Verification::default(),
             notices: Vec::new(),
             passing: Vec::new(),
             opening: None,
@@ -124,7 +129,7 @@ impl Session {
     ) -> (&'a mut Panel, ui::Desk<'a>, View<'a>) {
         let view = View {
             stock: stock::TABLE,
-            scene: self.loaded.as_ref().map(|loaded| &loaded.scene),
+            scene: self.loaded.as_ref().map(|loaded| &*loaded.scene),
             pose: self.drawn.as_ref().map(|drawn| &drawn.pose),
             plan: self.drawn.as_ref().map(|drawn| &drawn.plan),
             doctor: self.loaded.as_ref().map_or("", |loaded| &loaded.doctor),
@@ -132,6 +137,7 @@ impl Session {
             notices: &self.notices,
             capabilities,
             history: &self.history,
+            verification: &self.verification,
             picture,
         };
         (&mut self.panel, ui::Desk { settings: &mut self.settings, preferences: &mut self.preferences }, view)
@@ -199,7 +205,9 @@ impl Session {
                     self.preferences.opened(path);
                 }
                 tracing::info!("opened {}", opening.name);
-                self.loaded = Some(Loaded { doctor: doctor::report(&scene).to_string(), scene, floor: opening.floor });
+                let doctor = doctor::report(&scene).to_string();
+                self.loaded = Some(Loaded { doctor, scene: Arc::new(scene), floor: opening.floor });
+                self.verification = Verification::default();
                 self.drawn = None;
                 self.drawn_from = None;
                 self.dismiss(Topic::Scene);

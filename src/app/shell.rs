@@ -23,6 +23,8 @@ use super::ui::{Action, FrameNumbers, Outcome, Tone, Topic, style};
 use super::{AppError, Wake, WindowOptions, store};
 use crate::director::stage_frame;
 use crate::frame::Gather;
+use crate::headless::HeadlessError;
+use crate::headless::verify::Shots;
 use crate::settings::SceneChoice;
 
 /// How often shaders in a folder are looked at.
@@ -220,6 +222,7 @@ impl Shell {
         if let Some(words) = screen.context.take_error() {
             self.session.notice(Topic::Device, Tone::Error, format!("The graphics device reports: {words}"));
         }
+        self.session.verification.poll();
         self.session.advance(elapsed);
         if let Some(when) = self.session.forget_old_news(now) {
             self.pace.want(when);
@@ -358,6 +361,7 @@ impl Shell {
             }
             Action::Reload => self.open(self.session.settings.scene.clone(), true),
             Action::Screenshot => self.photograph(),
+            Action::Verify => self.verify(),
             Action::CopyCommand => {
                 let command = self.session.command();
                 if let Some(live) = &mut self.live {
@@ -380,6 +384,24 @@ impl Shell {
             Action::ForgetRecent | Action::Dismiss(_) => {}
         }
         self.pace.want(Instant::now());
+    }
+
+    /// Draws what is to be verified; a thread of its own casts the rays.
+    fn verify(&mut self) {
+        let wake = self.waker(Wake::Verified);
+        let Some(screen) = self.live.as_mut().and_then(|live| live.screen.as_mut()) else { return };
+        let Some(loaded) = &self.session.loaded else { return };
+        let (settings, scene) = (self.session.settings.clone(), loaded.scene.clone());
+        let capabilities = screen.context.capabilities().clone();
+        let lights: Vec<_> = (0..scene.lights.len()).collect();
+        let drawn = Shots::draw(&settings, &scene, &capabilities, (&[settings.technique], &lights), |plan, pose| {
+            screen.photograph(plan, &scene, pose).map_err(HeadlessError::from)
+        });
+        match drawn {
+            Ok(Some(shots)) => self.session.verification.start(scene, shots, settings, wake),
+            Ok(None) => {}
+            Err(error) => self.session.notice(Topic::Frame, Tone::Error, format!("Cannot verify this: {error}")),
+        }
     }
 
     fn photograph(&mut self) {
@@ -419,7 +441,7 @@ impl Shell {
         }
         self.next_shader_poll = Some(now + SHADER_POLL);
         let Some(screen) = self.live.as_mut().and_then(|live| live.screen.as_mut()) else { return };
-        let scene = self.session.loaded.as_ref().map(|loaded| &loaded.scene);
+        let scene = self.session.loaded.as_ref().map(|loaded| &*loaded.scene);
         if screen.context.is_lost() {
             return;
         }
@@ -516,7 +538,7 @@ impl ApplicationHandler<Wake> for Shell {
                 shell.take_opened();
                 Ok(())
             }),
-            Wake::Device => self.pace.want(Instant::now()),
+            Wake::Device | Wake::Verified => self.pace.want(Instant::now()),
         }
     }
 

@@ -14,9 +14,10 @@ use serde::Serialize;
 use super::wander::{Place, strays};
 use super::{HeadlessError, check_target, progress_bar, save_png};
 use crate::cli::{VerifyRequest, render_command};
-use crate::director;
+use crate::director::{self, StageError};
+use crate::frame::{Camera, Capabilities, FramePlan};
 use crate::gpu::{Context, Renderer, readback};
-use crate::scene::{AnimationChoice, PosedLight, Scene};
+use crate::scene::{AnimationChoice, Pose, PosedLight, Scene};
 use crate::settings::{Settings, Show, Technique};
 use crate::techniques;
 use crate::truth::{Comparison, Verdicts, World, WrongPixel, paint};
@@ -69,6 +70,8 @@ pub struct LightRow {
     pub shadow: usize,
     /// Pixels that rays do not agree on.
     pub edges: usize,
+    /// Pixels that the depth buffer's resolution decides.
+    pub grazing: usize,
     /// Decided pixels that are drawn otherwise.
     pub wrong: usize,
 }
@@ -103,8 +106,6 @@ impl Report {
 
 /// One view, drawn and judged.
 pub struct Verified {
-    /// The lights that were asked about, as they stand: of those with a size the point that was looked at.
-    pub lights: Vec<(usize, PosedLight)>,
     /// What rays say for each of them.
     pub verdicts: Vec<Verdicts>,
     /// Technique by technique, and light by light, what came of it.
@@ -122,6 +123,75 @@ impl Verified {
     fn worst(&self) -> u8 {
         let wrong = self.found.iter().filter(|(.., found)| found.wrong() > 0);
         wrong.map(|(technique, ..)| 1 + u8::from(techniques::row(*technique).exact)).max().unwrap_or(0)
+    }
+}
+
+/// `show shadow` of some lights by some techniques, drawn and to be judged.
+pub struct Shots {
+    /// The scene as it was drawn.
+    pub pose: Pose,
+    /// Where it was drawn from.
+    pub camera: Camera,
+    /// The lights as they were drawn: of those with a size the point that was looked at.
+    lights: Vec<PosedLight>,
+    /// Technique by technique, and light by light.
+    pictures: Vec<(Technique, usize, RgbaImage)>,
+}
+
+/// Shots, judged.
+pub struct Judged {
+    /// What rays say for each light.
+    pub verdicts: Vec<Verdicts>,
+    /// Technique by technique, and light by light, what came of it.
+    pub found: Vec<(Technique, usize, Comparison)>,
+    /// Whether the eye is in the shadow of any of the lights.
+    pub eye_in_shadow: bool,
+}
+
+impl Shots {
+    /// Draws `show shadow` of each of `lights` by each of `techniques`, everything else as `settings`
+    /// say. `draw` makes the picture of a plan. None where there is nothing to draw.
+    ///
+    /// # Errors
+    /// Settings that cannot be drawn, or what `draw` says.
+    pub fn draw<E: From<StageError>>(
+        settings: &Settings,
+        scene: &Scene,
+        capabilities: &Capabilities,
+        (techniques, lights): (&[Technique], &[usize]),
+        mut draw: impl FnMut(&FramePlan, &Pose) -> Result<RgbaImage, E>,
+    ) -> Result<Option<Self>, E> {
+        let mut shots: Option<Self> = None;
+        for &technique in techniques {
+            for &light in lights {
+                let settings = Settings { technique, show: Show::Shadow, light, ..settings.clone() };
+                let (pose, plan) = director::stage(&settings, scene, capabilities)?;
+                let picture = draw(&plan, &pose)?;
+                let posed = pose.lights[light];
+                let camera = plan.views[0].camera;
+                let shots = shots.get_or_insert_with(|| Self { pose, camera, lights: Vec::new(), pictures: Vec::new() });
+                if shots.pictures.len() < lights.len() {
+                    shots.lights.push(posed);
+                }
+                shots.pictures.push((technique, light, picture));
+            }
+        }
+        Ok(shots)
+    }
+
+    /// Holds the pictures, of `size` pixels, against rays through `world`, which is the pose's.
+    /// `goes_on` as in [`World::judge_lights`].
+    #[must_use]
+    pub fn judge(&self, world: &World, size: [u32; 2], goes_on: &(dyn Fn(f64) -> bool + Sync)) -> Option<Judged> {
+        let verdicts = world.judge_lights(&self.camera, &self.lights, size, goes_on)?;
+        let found = self
+            .pictures
+            .iter()
+            .zip(verdicts.iter().cycle())
+            .map(|((technique, light, picture), verdicts)| (*technique, *light, verdicts.compare(picture)))
+            .collect();
+        let eye_in_shadow = self.lights.iter().any(|light| world.shades(self.camera.eye, light));
+        Some(Judged { verdicts, found, eye_in_shadow })
     }
 }
 
@@ -143,43 +213,21 @@ pub fn verify_view(
     kept: &mut Kept,
 ) -> Result<Verified, HeadlessError> {
     let mut begun = Instant::now();
-    let mut pictures = Vec::new();
-    let mut posed = Vec::new();
-    let mut staged = None;
-    for &technique in techniques {
-        posed.clear();
-        for &light in lights {
-            let settings = Settings { technique, show: Show::Shadow, light, ..settings.clone() };
-            let (pose, plan) = director::stage(&settings, scene, context.capabilities())?;
-            let (_, picture) = readback::picture(context, renderer, &plan, scene, &pose)?;
-            pictures.push((technique, light, picture));
-            posed.push((light, pose.lights[light]));
-            staged = Some((pose, plan));
-        }
-    }
+    let shots = Shots::draw(settings, scene, context.capabilities(), (techniques, lights), |plan, pose| {
+        readback::picture(context, renderer, plan, scene, pose).map(|(_, picture)| picture).map_err(HeadlessError::from)
+    })?;
     let draw_ms = lap(&mut begun);
-
-    let (mut verdicts, mut eye_in_shadow) = (Vec::new(), false);
-    if let Some((pose, plan)) = &staged {
+    let judged = shots.and_then(|shots| {
         let animation = settings.animation.unwrap_or(scene.default_animation);
         let same = |kept: &(f64, AnimationChoice, World)| kept.0 == settings.time && kept.1 == animation;
-        if !kept.0.as_ref().is_some_and(same) {
-            kept.0 = Some((settings.time, animation, World::new(scene, pose)));
-        }
-        if let Some((.., world)) = &kept.0 {
-            let camera = &plan.views[0].camera;
-            let lights: Vec<_> = posed.iter().map(|(_, light)| *light).collect();
-            verdicts = world.judge_lights(camera, &lights, settings.size, &|_| true).unwrap_or_default();
-            eye_in_shadow = lights.iter().any(|light| world.shades(camera.eye, light));
-        }
-    }
-    let trace_ms = lap(&mut begun);
-    let found = pictures
-        .into_iter()
-        .zip(verdicts.iter().cycle())
-        .map(|((technique, light, picture), verdicts)| (technique, light, verdicts.compare(&picture)))
-        .collect();
-    Ok(Verified { lights: posed, verdicts, found, eye_in_shadow, draw_ms, trace_ms })
+        let held = kept.0.take().filter(same);
+        let held = held.unwrap_or_else(|| (settings.time, animation, World::new(scene, &shots.pose)));
+        let (.., world) = kept.0.insert(held);
+        shots.judge(world, settings.size, &|_| true)
+    });
+    let Judged { verdicts, found, eye_in_shadow } =
+        judged.unwrap_or_else(|| Judged { verdicts: Vec::new(), found: Vec::new(), eye_in_shadow: false });
+    Ok(Verified { verdicts, found, eye_in_shadow, draw_ms, trace_ms: lap(&mut begun) })
 }
 
 /// Does what is asked; the picture of wrong pixels is written whatever they are.
@@ -281,6 +329,7 @@ impl Report {
                 lit: 0,
                 shadow: 0,
                 edges: 0,
+                grazing: 0,
                 wrong: 0,
             });
             row.views += 1;
@@ -288,6 +337,7 @@ impl Report {
             row.lit += found.lit;
             row.shadow += found.shadow;
             row.edges += found.edges;
+            row.grazing += found.grazing;
             row.wrong += found.wrong();
             let kept = self.wrong_views.iter().filter(|view| view.exact == exact).count();
             if let Some(&first) = found.pixels.first()
@@ -317,8 +367,8 @@ impl Display for Report {
         }
         writeln!(
             out,
-            "{:<16} {:<26} {:>11} {:>11} {:>11} {:>9} {:>9}",
-            "technique", "light", "lit", "shadow", "decided", "edges", "wrong"
+            "{:<16} {:<26} {:>11} {:>11} {:>11} {:>9} {:>9} {:>9}",
+            "technique", "light", "lit", "shadow", "decided", "edges", "grazing", "wrong"
         )?;
         for row in &self.lights {
             let name: String = format!("{} {}", row.light, row.name).chars().take(26).collect();
@@ -329,12 +379,13 @@ impl Display for Report {
             };
             writeln!(
                 out,
-                "{:<16} {name:<26} {:>11} {:>11} {:>11} {:>9} {:>9}{verdict}",
+                "{:<16} {name:<26} {:>11} {:>11} {:>11} {:>9} {:>9} {:>9}{verdict}",
                 row.technique.name(),
                 row.lit,
                 row.shadow,
                 row.decided,
                 row.edges,
+                row.grazing,
                 row.wrong
             )?;
         }

@@ -7,6 +7,9 @@ use image::{Rgba, RgbaImage};
 pub enum Verdict {
     /// Undecided: rays through the pixel disagree, or the light grazes what is seen.
     Edge,
+    /// Rays agree, but the light grazes the surface so closely that the depth buffer's last bits decide:
+    /// were it a little nearer or farther, the answer would be another one.
+    Grazing,
     /// No surface: grey.
     Nothing,
     /// A surface beyond the light's range: grey.
@@ -22,7 +25,7 @@ impl Verdict {
     #[must_use]
     pub const fn value(self) -> Option<u8> {
         match self {
-            Self::Edge => None,
+            Self::Edge | Self::Grazing => None,
             Self::Nothing | Self::OutOfRange => Some(128),
             Self::Lit => Some(255),
             Self::Shadow => Some(0),
@@ -71,6 +74,8 @@ pub struct Comparison {
     pub shadow: usize,
     /// Pixels on which they do not agree.
     pub edges: usize,
+    /// Pixels on which they agree, but the depth buffer's resolution decides.
+    pub grazing: usize,
     /// Decided pixels that are drawn otherwise, row by row.
     pub pixels: Vec<WrongPixel>,
 }
@@ -111,7 +116,8 @@ impl Verdicts {
         let mut comparison = Comparison::default();
         for (at, &verdict) in (0u32..).zip(&self.pixels) {
             let Some(value) = verdict.value() else {
-                comparison.edges += 1;
+                comparison.edges += usize::from(verdict == Verdict::Edge);
+                comparison.grazing += usize::from(verdict == Verdict::Grazing);
                 continue;
             };
             comparison.decided += 1;
@@ -133,14 +139,15 @@ impl Verdicts {
     }
 }
 
-/// Paints wrong pixels over a picture of the view, which is dimmed: edges of any of `verdicts` faintly,
+/// Paints wrong pixels over a picture of the view, which is dimmed: edges and grazing light of any of `verdicts` faintly,
 /// wrong pixels in [`Wrong::color`] with a pale frame around each, so that one alone is found.
 pub fn paint(picture: &mut RgbaImage, verdicts: &[Verdicts], wrong: &[WrongPixel]) {
     for pixel in picture.pixels_mut() {
         let [r, g, b, a] = pixel.0;
         pixel.0 = [r / 3, g / 3, b / 3, a];
     }
-    let edge = |at: usize| verdicts.iter().any(|verdicts| verdicts.pixels.get(at) == Some(&Verdict::Edge));
+    let edge =
+        |at: usize| verdicts.iter().any(|verdicts| verdicts.pixels.get(at).is_some_and(|verdict| verdict.value().is_none()));
     for (_, pixel) in picture.pixels_mut().enumerate().filter(|(at, _)| edge(*at)) {
         let [r, g, b, a] = pixel.0;
         pixel.0 = [r.saturating_add(28), g.saturating_add(28), b.saturating_add(34), a];
@@ -197,7 +204,7 @@ mod tests {
     fn what_is_right_is_right_and_edges_may_be_anything() {
         for edge in [0, 77, 128, 255] {
             let comparison = verdicts().compare(&picture([255, 0, edge, 128, 128, 255]));
-            assert_eq!(comparison, Comparison { decided: 5, lit: 2, shadow: 1, edges: 1, pixels: Vec::new() });
+            assert_eq!(comparison, Comparison { decided: 5, lit: 2, shadow: 1, edges: 1, grazing: 0, pixels: Vec::new() });
         }
     }
 

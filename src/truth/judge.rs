@@ -11,9 +11,22 @@ use super::world::{Asked, Casts, Face, Seen, World};
 use crate::frame::Camera;
 use crate::scene::{LightKind, PosedLight};
 
-/// The places in a pixel where surfaces are looked for, pixels from its centre, the centre first.
-const PLACES: [DVec2; 5] =
-    [DVec2::ZERO, DVec2::new(-0.25, -0.25), DVec2::new(0.25, -0.25), DVec2::new(-0.25, 0.25), DVec2::new(0.25, 0.25)];
+/// The places in a pixel where surfaces are looked for, pixels from its centre: the centre itself, the
+/// four a quarter pixel around it, and four so near that a rasteriser, which moves corners to the
+/// nearest 256th of a pixel, may take one for the other.
+const PLACES: [DVec2; 9] = [
+    DVec2::ZERO,
+    DVec2::new(-QUARTER, -QUARTER),
+    DVec2::new(QUARTER, -QUARTER),
+    DVec2::new(-QUARTER, QUARTER),
+    DVec2::new(QUARTER, QUARTER),
+    DVec2::new(-SNAP, -SNAP),
+    DVec2::new(SNAP, -SNAP),
+    DVec2::new(-SNAP, SNAP),
+    DVec2::new(SNAP, SNAP),
+];
+const QUARTER: f64 = 0.25;
+const SNAP: f64 = 1.0 / 128.0;
 
 /// Where the light is moved to, in [`NUDGE`]s.
 const NUDGES: [DVec3; 4] = [DVec3::ONE, DVec3::NEG_ONE, DVec3::new(1.0, -1.0, 1.0), DVec3::new(-1.0, 1.0, -1.0)];
@@ -27,8 +40,12 @@ const HAIR: f64 = 1e-7;
 /// What a box is made larger by, of the world's size: much more than double precision is wrong by.
 const SLACK: f64 = 1e-9;
 
-/// One pixel's answer for a light as a number of volumes.
-type Counts = [u8; 9];
+/// Rays between a pixel's points and a light: from each place, from the centre's surface moved nearer
+/// and farther, and from the centre to where the light is moved.
+const RAYS: usize = PLACES.len() + 2 + NUDGES.len();
+
+/// How many volumes each ray crosses.
+type Counts = [u8; RAYS];
 
 impl World {
     /// What each pixel must be in `light`, for a picture of `size` pixels.
@@ -75,7 +92,8 @@ impl World {
     /// Whether a point is in shadow of `light`; on a border it may say either.
     #[must_use]
     pub fn shades(&self, point: DVec3, light: &PosedLight) -> bool {
-        let mut shadow = Shadow::new(self, light, &[point; 5]);
+        let surface = Surface { points: [point; PLACES.len()], displaced: [point; 2], faces: [u32::MAX; PLACES.len()] };
+        let mut shadow = Shadow::new(self, light, &surface);
         self.tree.descend(&mut shadow, &mut Stack::new());
         light.shadows && shadow.counts[0] > 0
     }
@@ -135,8 +153,17 @@ struct Caster<'a> {
 enum Shown {
     Nothing,
     Edge,
-    /// Metres, world space, a hair before the surface.
-    Surface([DVec3; 5]),
+    Surface(Surface),
+}
+
+/// What is seen through a pixel.
+struct Surface {
+    /// At each place: metres, world space, a hair before the surface.
+    points: [DVec3; PLACES.len()],
+    /// Where the centre's point may be for the depth buffer: nearer, and farther.
+    displaced: [DVec3; 2],
+    /// The triangles that were met.
+    faces: [u32; PLACES.len()],
 }
 
 impl<'a> Caster<'a> {
@@ -153,25 +180,25 @@ impl<'a> Caster<'a> {
         match self.look(x, y) {
             Shown::Edge => verdicts.fill(Verdict::Edge),
             Shown::Nothing => verdicts.fill(Verdict::Nothing),
-            Shown::Surface(points) => {
+            Shown::Surface(surface) => {
                 self.last.resize(lights.len(), None);
                 for (number, (light, verdict)) in lights.iter().zip(verdicts).enumerate() {
-                    *verdict = self.light(number, light, &points);
+                    *verdict = self.light(number, light, &surface);
                 }
             }
         }
     }
 
     fn count(&mut self, x: u32, y: u32, light: &PosedLight) -> Option<u8> {
-        let Shown::Surface(points) = self.look(x, y) else { return None };
-        let mut shadow = Shadow::new(self.world, light, &points);
+        let Shown::Surface(surface) = self.look(x, y) else { return None };
+        let mut shadow = Shadow::new(self.world, light, &surface);
         shadow.counts_on = true;
         self.world.tree.descend(&mut shadow, &mut self.stack);
         let counts = shadow.counts;
         counts.iter().all(|count| *count == counts[0]).then_some(counts[0])
     }
 
-    /// What is seen at the five places of a pixel.
+    /// What is seen at the places of a pixel.
     fn look(&mut self, x: u32, y: u32) -> Shown {
         let Camera { eye, forward, near, .. } = self.camera;
         let [right, down] = self.pixel;
@@ -187,9 +214,9 @@ impl<'a> Caster<'a> {
             pixel: self.pixel,
             inverse: directions[0].recip(),
             directions,
-            spread: (right.abs() + down.abs()) * 0.25,
+            spread: (right.abs() + down.abs()) * QUARTER,
             slack,
-            nearest: [Nearest { depth: f64::INFINITY, instance: u32::MAX, sure: true }; 5],
+            nearest: [Nearest { depth: f64::INFINITY, face: u32::MAX, instance: u32::MAX, sure: true }; PLACES.len()],
         };
         self.world.tree.descend(&mut sight, &mut self.stack);
         let nearest = sight.nearest;
@@ -199,20 +226,26 @@ impl<'a> Caster<'a> {
         if nearest[0].instance == u32::MAX {
             return Shown::Nothing;
         }
-        let mut at = 0;
-        Shown::Surface(directions.map(|direction| {
-            let depth = nearest[at].depth;
-            at += 1;
-            eye + direction * (depth * (1.0 - HAIR))
-        }))
+        let depths = nearest.map(|met| met.depth);
+        let (least, most) =
+            depths.iter().fold((f64::INFINITY, 0f64), |(least, most), depth| (least.min(*depth), most.max(*depth)));
+        // Two steps of a depth buffer of 24 bits, and what its corners' moving to the nearest 256th of a
+        // pixel makes of the slope: the places lie half a pixel apart.
+        let unsure = 2.0 * depths[0] * depths[0] / near * 0.5f64.powi(24) + (most - least) / 64.0;
+        let at = |place: usize, depth: f64| eye + directions[place] * depth;
+        Shown::Surface(Surface {
+            points: std::array::from_fn(|place| at(place, depths[place] * (1.0 - HAIR))),
+            displaced: [at(0, depths[0] * (1.0 - HAIR) - unsure), at(0, depths[0] + unsure)],
+            faces: nearest.map(|met| met.face),
+        })
     }
 
-    /// Whether `light`, the `number`th, reaches all five points, or none.
-    fn light(&mut self, number: usize, light: &PosedLight, points: &[DVec3; 5]) -> Verdict {
+    /// Whether `light`, the `number`th, reaches all of the points, or none.
+    fn light(&mut self, number: usize, light: &PosedLight, surface: &Surface) -> Verdict {
         if !matches!(light.kind, LightKind::Directional) && light.range.is_finite() {
             // The picture's distances are of single precision.
             let unsure = 1e-5 * light.range + 1e-6 * (self.world.largest + light.position.abs().max_element());
-            let beyond = points.map(|point| point.distance(light.position) - light.range);
+            let beyond = surface.points.map(|point| point.distance(light.position) - light.range);
             if beyond.iter().all(|beyond| *beyond > unsure) {
                 return Verdict::OutOfRange;
             }
@@ -223,43 +256,48 @@ impl<'a> Caster<'a> {
         if !light.shadows {
             return Verdict::Lit;
         }
-        let mut shadow = Shadow::new(self.world, light, points);
+        let mut shadow = Shadow::new(self.world, light, surface);
         if let Some(last) = self.last[number]
             && !shadow.meet(last)
         {
             return Verdict::Shadow;
         }
         self.world.tree.descend(&mut shadow, &mut self.stack);
-        match shadow.counts.iter().filter(|count| **count > 0).count() {
-            0 => Verdict::Lit,
-            all if all == shadow.counts.len() => {
-                self.last[number] = shadow.whole.or(self.last[number]);
-                Verdict::Shadow
-            }
-            _ => Verdict::Edge,
+        let shaded = shadow.counts.map(|count| count > 0);
+        let displaced = shadow.displaced.map(|ray| shaded[ray]);
+        let agreed = (0..RAYS).all(|ray| shaded[ray] == shaded[0] || shadow.displaced.contains(&ray));
+        if shaded[0] {
+            self.last[number] = shadow.whole.or(self.last[number]);
+        }
+        match (agreed, displaced == [shaded[0]; 2], shaded[0]) {
+            (false, ..) => Verdict::Edge,
+            (true, false, _) => Verdict::Grazing,
+            (true, true, false) => Verdict::Lit,
+            (true, true, true) => Verdict::Shadow,
         }
     }
 }
 
-/// The rays through one pixel's five places.
+/// The rays through one pixel's places.
 struct Sight<'a> {
     world: &'a World,
     eye: DVec3,
     forward: DVec3,
     near: f64,
     pixel: [DVec3; 2],
-    directions: [DVec3; 5],
+    directions: [DVec3; PLACES.len()],
     /// Of the middle one.
     inverse: DVec3,
     /// How far the others are from the middle one, for each metre of depth.
     spread: DVec3,
     slack: f64,
-    nearest: [Nearest; 5],
+    nearest: [Nearest; PLACES.len()],
 }
 
 #[derive(Clone, Copy)]
 struct Nearest {
     depth: f64,
+    face: u32,
     /// `u32::MAX` for none.
     instance: u32,
     /// Not at the cutoff of a mask.
@@ -301,18 +339,17 @@ impl Bundle for Sight<'_> {
                 self.world.masks.at(mask, asked.weights(*direction), beside)
             });
             if mask != Mask::Hole {
-                *nearest = Nearest { depth: met.distance, instance: face.instance, sure: mask == Mask::Surface };
+                *nearest = Nearest { depth: met.distance, face: index, instance: face.instance, sure: mask == Mask::Surface };
             }
         }
         true
     }
 }
 
-/// The rays between one pixel's points and a light: from the five points, and from the middle one to
-/// where the light is moved.
+/// The rays between one pixel's points and a light.
 ///
-/// Rays with a common end are asked together: at a point light the five points' rays, at a
-/// directional light the middle point's.
+/// Rays with a common end are asked together: at a point light those of all points, at a directional
+/// light those of the centre. The centre's ray comes first.
 struct Shadow<'a> {
     world: &'a World,
     /// Of the middle ray, from the surface to the light.
@@ -322,10 +359,14 @@ struct Shadow<'a> {
     end: f64,
     /// How far the others are from it at most.
     spread: DVec3,
-    /// Where the first five rays begin, and where one more ray each.
-    apices: [DVec3; 5],
-    /// One more ray from each of the other apices.
-    directions: [DVec3; 9],
+    /// Where rays begin, and which is the first that does not begin there any more.
+    apices: [(DVec3, usize); PLACES.len() + 2],
+    apex_count: usize,
+    directions: [DVec3; RAYS],
+    /// The rays of the surface moved nearer and farther.
+    displaced: [usize; 2],
+    /// The triangles that are seen: a surface that is moved stays on the same side of them.
+    own: [u32; PLACES.len()],
     /// Rays run from the light, not to it.
     from_light: bool,
     counts: Counts,
@@ -336,20 +377,41 @@ struct Shadow<'a> {
 }
 
 impl<'a> Shadow<'a> {
-    fn new(world: &'a World, light: &PosedLight, points: &[DVec3; 5]) -> Self {
-        let spread = points.iter().fold(DVec3::ZERO, |most, point| most.max((*point - points[0]).abs()));
-        let (from_light, apices, directions, toward, end) = if let LightKind::Directional = light.kind {
-            let toward = -light.direction;
-            let moved = NUDGES.map(|by| -(light.direction + by * NUDGE).normalize());
-            let directions = [toward, moved[0], moved[1], moved[2], moved[3], toward, toward, toward, toward];
-            (false, *points, directions, toward, f64::INFINITY)
+    fn new(world: &'a World, light: &PosedLight, surface: &Surface) -> Self {
+        let Surface { points, displaced: moved_points, faces } = surface;
+        let mut spread = DVec3::ZERO;
+        for point in points.iter().chain(moved_points) {
+            spread = spread.max((*point - points[0]).abs());
+        }
+        let (places, nudges) = (PLACES.len(), NUDGES.len());
+        let mut apices = [(DVec3::ZERO, 0); PLACES.len() + 2];
+        let mut directions = [DVec3::ZERO; RAYS];
+        let from_light = !matches!(light.kind, LightKind::Directional);
+        let (toward, end, apex_count, displaced);
+        if from_light {
+            apices[0] = (light.position, places + 2);
+            for (direction, point) in directions.iter_mut().zip(points.iter().chain(moved_points)) {
+                *direction = *point - light.position;
+            }
+            for (at, by) in NUDGES.iter().enumerate() {
+                let moved = light.position + *by * (NUDGE * world.size);
+                apices[1 + at] = (moved, places + 3 + at);
+                directions[places + 2 + at] = points[0] - moved;
+            }
+            (toward, end) = (light.position - points[0], 1.0);
+            (apex_count, displaced) = (1 + nudges, [places, places + 1]);
         } else {
-            let moved = NUDGES.map(|by| light.position + by * (NUDGE * world.size));
-            let apices = [light.position, moved[0], moved[1], moved[2], moved[3]];
-            let [a, b, c, d, e] = points.map(|point| point - light.position);
-            let [f, g, h, i] = moved.map(|moved| points[0] - moved);
-            (true, apices, [a, b, c, d, e, f, g, h, i], light.position - points[0], 1.0)
-        };
+            toward = -light.direction;
+            end = f64::INFINITY;
+            directions.fill(toward);
+            for (direction, by) in directions[1..].iter_mut().zip(NUDGES) {
+                *direction = -(light.direction + by * NUDGE).normalize();
+            }
+            for (at, point) in points.iter().chain(moved_points).enumerate() {
+                apices[at] = (*point, nudges + 1 + at);
+            }
+            (apex_count, displaced) = (places + 2, [RAYS - 2, RAYS - 1]);
+        }
         Self {
             world,
             origin: points[0],
@@ -358,9 +420,12 @@ impl<'a> Shadow<'a> {
             // The light's moves, over the whole width of the world where it is a direction.
             spread: spread + (4.0 * NUDGE + SLACK) * world.size + SLACK * world.largest,
             apices,
+            apex_count,
             directions,
+            displaced,
+            own: *faces,
             from_light,
-            counts: [0; 9],
+            counts: [0; RAYS],
             counts_on: false,
             whole: None,
         }
@@ -393,18 +458,22 @@ impl Bundle for Shadow<'_> {
         if face.casts == Casts::Never {
             return true;
         }
-        let mut met = 0;
-        for (number, apex) in self.apices.into_iter().enumerate() {
+        let mut crossed = [false; RAYS];
+        let mut first = 0;
+        for &(apex, end) in &self.apices[..self.apex_count] {
             let asked = face.from(apex);
-            let rays = if number == 0 { 0..5 } else { number + 4..number + 5 };
-            for ray in rays {
-                if self.crosses(face, &asked, self.directions[ray]) {
-                    self.counts[ray] = self.counts[ray].wrapping_add(1);
-                    met += 1;
-                }
+            for (crossed, direction) in crossed[first..end].iter_mut().zip(&self.directions[first..end]) {
+                *crossed = self.crosses(face, &asked, *direction);
             }
+            first = end;
         }
-        if met == self.counts.len() {
+        if self.own.contains(&index) {
+            self.displaced.iter().for_each(|&ray| crossed[ray] = crossed[0]);
+        }
+        for (count, crossed) in self.counts.iter_mut().zip(crossed) {
+            *count = count.wrapping_add(u8::from(crossed));
+        }
+        if crossed == [true; RAYS] {
             self.whole = Some(index);
         }
         self.counts_on || !self.counts.iter().all(|count| *count > 0)

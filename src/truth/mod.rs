@@ -12,8 +12,14 @@
 //!
 //! Only where all of them agree the pixel is *decided*: a picture that says otherwise there is wrong,
 //! and one wrong pixel is too many. Where they do not, an outline or the border of a shadow passes
-//! through the pixel, or the light grazes a surface: an [edge](Verdict::Edge), about which rounding
-//! may decide, counted but not asked about.
+//! through the pixel: an [edge](Verdict::Edge), about which rounding may decide, counted but not asked
+//! about. So that slivers do not slip between the five, four more look 1/128 pixel around the centre:
+//! a rasteriser moves corners to the nearest 256th.
+//!
+//! One more doubt is counted by itself. A light in the plane of a face, or nearly, throws the sides of
+//! the face's own volume almost into that plane, closer to it than the steps of a depth buffer. Two more
+//! rays therefore start where the surface would be if it were that much nearer or farther; where they
+//! disagree with the rest the pixel is [grazing](Verdict::Grazing).
 //!
 //! ```no_run
 //! # use obscura::{frame::Camera, scene::{Pose, Scene}, truth::World};
@@ -41,7 +47,7 @@
 //!
 //! # Fast enough
 //!
-//! Five rays to the surface and nine to each light would be much for every pixel. But they run close
+//! Nine rays to the surface and fifteen to each light would be much for every pixel. But they run close
 //! together: the tree over the triangles is descended once for all of them, along the middle one with boxes grown by
 //! their distance from it, and only at the triangles are they told apart.
 

@@ -18,6 +18,7 @@ mod scene;
 pub mod style;
 mod technique;
 mod time;
+mod verify;
 
 pub use gizmo::project;
 pub use numbers::{FrameNumbers, History};
@@ -27,6 +28,7 @@ pub use time::moves;
 use egui::{Rect, RichText, Ui};
 
 use super::store::Preferences;
+use super::verify::Verification;
 use crate::frame::{Camera, Capabilities, FramePlan};
 use crate::scene::stock::StockScene;
 use crate::scene::{Pose, Scene};
@@ -61,6 +63,8 @@ pub struct View<'a> {
     pub capabilities: Option<&'a Capabilities>,
     /// The last frames.
     pub history: &'a History,
+    /// What exact rays say of the picture.
+    pub verification: &'a Verification,
     /// The picture, where the panel has to draw it; else it is copied beneath.
     pub picture: Option<egui::TextureId>,
 }
@@ -119,6 +123,8 @@ pub enum Action {
     Screenshot,
     /// Copies the command that draws the picture.
     CopyCommand,
+    /// Holds the picture against exact rays.
+    Verify,
     /// Takes a notice away.
     Dismiss(Topic),
     /// Throws the device away, which then is rebuilt.
@@ -217,6 +223,7 @@ impl Panel {
         style::section(ui, "Technique", true, |ui| technique::techniques(ui, desk));
         style::section(ui, "Show", true, |ui| technique::show(ui, desk, view));
         style::section(ui, "Failures", false, |ui| failures::failures(ui, self, desk, actions));
+        style::section(ui, "Proof", true, |ui| verify::verify(ui, desk, view, actions));
         style::section(ui, "Lights", true, |ui| lights::lights(ui, self, desk, view));
         style::section(ui, "Gathering", true, |ui| gather::gather(ui, desk, view));
         style::section(ui, "Camera", true, |ui| camera::camera(ui, desk, view));

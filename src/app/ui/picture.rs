@@ -67,6 +67,7 @@ pub fn picture(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
     if let Some(camera) = super::camera_of(desk.settings, view) {
         panel.icons = gizmo::paint(ui, panel.selected_light, panel.drag, desk, view, &camera, rect);
     }
+    super::verify::overlay(ui, rect, desk, view);
     rect
 }
 

@@ -55,7 +55,10 @@ fn crossings(triangles: &[[DVec3; 3]], from: DVec3, to: DVec3) -> usize {
 #[test]
 fn names_are_unique_and_known() {
     let names: Vec<_> = TABLE.iter().map(|stock| stock.name).collect();
-    assert_eq!(names, ["courtyard", "cubes", "teapots", "grid", "eye-in-shadow", "cathedral", "stairs", "shadowfun", "hello2rts"]);
+    assert_eq!(
+        names,
+        ["courtyard", "cubes", "teapots", "grid", "eye-in-shadow", "cathedral", "stairs", "shadowfun", "hello2rts"]
+    );
     assert!(super::build("courtyard").is_some() && super::build("nowhere").is_none());
 }
 
