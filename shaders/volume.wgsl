@@ -1,15 +1,6 @@
 #include "shared/frame.wgsl"
 #include "shared/volume.wgsl"
 
-struct VolumePoint {
-    @invariant @builtin(position) clip: vec4f,
-}
-
-@vertex
-fn volume_vertex(@location(0) vertex: vec4f, @builtin(instance_index) volume: u32) -> VolumePoint {
-    return VolumePoint(volume_position(vertex, volume));
-}
-
 // For the failure gallery: by way of world space, in two products where `clip_position` has one. Equal in
 // mathematics, it differs in the last bits, and what lies on a surface may end up behind it.
 @vertex

@@ -9,6 +9,7 @@
 //! which pictures carry and the window copies to the clipboard.
 
 mod command_line;
+mod counting;
 mod input;
 mod light_edit;
 mod lighting;
@@ -30,6 +31,7 @@ use crate::settings::{CameraChoice, Failure, LightEdit, MAX_SIZE, SceneChoice, S
 
 /// What the arguments ask for.
 #[derive(Debug, Clone, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "there is one, once")]
 pub enum Command {
     /// Opens the window.
     Window(WindowRequest),
@@ -398,6 +400,8 @@ struct PictureArguments {
     light_edit: Vec<(usize, LightEdit)>,
     #[command(flatten)]
     lighting: lighting::LightingArguments,
+    #[command(flatten)]
+    counting: counting::CountingArguments,
     /// The graphics adapter: part of its name
     #[arg(long, value_name = "SUBSTRING", allow_hyphen_values = true)]
     adapter: Option<String>,
@@ -419,6 +423,7 @@ impl PictureArguments {
                 samples: settings.samples,
                 smooth_terminator: settings.smooth_terminator,
                 lighting: settings.lighting,
+                counting: settings.counting,
                 adapter: settings.adapter,
                 shaders: settings.shaders,
                 ..Settings::default()
@@ -458,6 +463,7 @@ impl PictureArguments {
             light_edit::merge(settings.lights.entry(*light).or_default(), edit);
         }
         self.lighting.apply(&mut settings.lighting)?;
+        self.counting.apply(&mut settings.counting)?;
         settings.adapter = self.adapter.clone().or(settings.adapter);
         settings.shaders = self.shaders.clone().or(settings.shaders);
         check(&settings)?;

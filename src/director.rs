@@ -21,7 +21,7 @@ use crate::scene::area::sequence;
 use crate::scene::pose::pose;
 use crate::scene::{Pose, Sampling, Scene};
 use crate::settings::{Accumulation, MAX_FRAMES, Settings, Show, Technique, Texturing};
-use crate::techniques::{self, Caster, counting, labels, show, surfaces};
+use crate::techniques::{self, Caster, counting, labels, show, surfaces, wide};
 
 /// Why a frame cannot be planned: one line each.
 #[derive(Debug, Error)]
@@ -64,7 +64,7 @@ pub fn stage(settings: &Settings, scene: &Scene, capabilities: &Capabilities) ->
 #[must_use]
 pub fn frames(settings: &Settings) -> u32 {
     // Exact values have no mean.
-    let exact_values = matches!(settings.show, Show::Stencil | Show::Shadow);
+    let exact_values = matches!(settings.show, Show::Stencil | Show::Shadow | Show::Overflow);
     if exact_values { 1 } else { settings.lighting.accumulate.clamp(1, MAX_FRAMES) }
 }
 
@@ -91,7 +91,7 @@ pub fn stage_frame(
     if !settings.time.is_finite() || settings.time < 0.0 {
         return Err(StageError::Time(settings.time));
     }
-    let looks_at_light = matches!(settings.show, Show::Stencil | Show::Shadow | Show::Volumes);
+    let looks_at_light = matches!(settings.show, Show::Stencil | Show::Shadow | Show::Overflow | Show::Volumes);
     if looks_at_light && settings.light >= scene.lights.len() {
         return Err(StageError::Light(settings.light, scene.lights.len()));
     }
@@ -149,11 +149,21 @@ pub fn plan(
             } else {
                 let scissor = frame.light_rect(settings.light);
                 if let Some(scissor) = scissor {
-                    let budget = frame.plan.budget;
-                    frame.extend(surfaces::verdict(&groups, settings.light, scissor, budget));
+                    frame.extend(surfaces::verdict(&groups, settings.light, scissor, count.budget));
                 }
                 frame.push(show::copy(whole));
             }
+        }
+        Show::Overflow => {
+            let count = frame.count_by(techniques::row(Technique::Wide), settings.light);
+            frame.clear_all([0.0; 4], count.base);
+            frame.extend(surfaces::ambient(&groups, whole));
+            if !count.steps.is_empty() {
+                frame.extend(count.steps);
+                let step = wide::overflow_colors(&frame.ask(settings.light, whole));
+                frame.push(step);
+            }
+            frame.push(show::copy(whole));
         }
         Show::Final | Show::Volumes | Show::Wireframe => {
             let mut lights = Vec::new();
@@ -181,7 +191,7 @@ pub fn plan(
                 counted = !count.steps.is_empty();
                 let unshadowed = count.steps.is_empty() && count.base == 0;
                 frame.extend(count.steps);
-                let stencil = if unshadowed { StencilState::IGNORE } else { StencilState::count_equals(frame.plan.budget) };
+                let stencil = if unshadowed { StencilState::IGNORE } else { StencilState::count_equals(count.budget) };
                 frame.extend(surfaces::lit(
                     &groups,
                     light,
@@ -228,8 +238,9 @@ struct Frame<'a> {
 
 impl<'a> Frame<'a> {
     fn new(settings: &'a Settings, scene: &'a Scene, pose: &'a Pose, camera: Camera, capabilities: &'a Capabilities) -> Self {
-        let exact_values = matches!(settings.show, Show::Shadow | Show::Stencil);
-        let samples = if exact_values || !capabilities.four_samples { 1 } else { settings.samples };
+        let exact_values = matches!(settings.show, Show::Shadow | Show::Stencil | Show::Overflow);
+        let each_sample = settings.technique != Technique::Wide || capabilities.wide_four_samples;
+        let samples = if exact_values || !capabilities.four_samples || !each_sample { 1 } else { settings.samples };
         let mut notes: Vec<_> =
             capabilities.lacks().iter().map(|lack| format!("no {}: {}", lack.feature, lack.instead)).collect();
         if exact_values && settings.samples != 1 {
@@ -238,12 +249,15 @@ impl<'a> Frame<'a> {
         if let Some(far) = camera.far {
             notes.push(format!("the far plane at {far} m cuts volumes off: what is counted from infinity goes wrong"));
         }
+        if !each_sample && settings.samples != 1 {
+            notes.push("this device counts wide with 1 sample a pixel only".into());
+        }
         let plan = FramePlan {
             size: settings.size,
             samples,
             exposure: scene.exposure * settings.exposure.exp2(),
             smooth_terminator: settings.smooth_terminator,
-            budget: BitBudget::default(),
+            budget: BitBudget::of_bits(settings.counting.bits),
             views: vec![View { name: "eye".into(), camera, winding: Winding::Ccw }],
             volumes: Vec::new(),
             steps: Vec::new(),
@@ -283,7 +297,7 @@ impl<'a> Frame<'a> {
         let (light, count) = only.map_or((None, counting::LightCount::default()), |(light, count)| (Some(light), count));
         self.clear_all([0.0, 0.0, 0.0, 1.0], count.base);
         self.extend(surfaces::depth(groups, whole));
-        let shadowed = count.base != 0 || !count.steps.is_empty();
+        let (shadowed, budget) = (count.base != 0 || !count.steps.is_empty(), count.budget);
         for step in count.steps {
             self.push(Step { action: step.action.onto(Target::Direct), ..step });
         }
@@ -292,7 +306,7 @@ impl<'a> Frame<'a> {
             light,
             shape: (&self.pose.lights[light]).into(),
             reached: &reached,
-            budget: shadowed.then_some(self.plan.budget),
+            budget: shadowed.then_some(budget),
         });
         self.extend(surfaces::finished(groups, only.as_ref(), whole));
         self.push(show::background(whole));
@@ -324,8 +338,11 @@ impl<'a> Frame<'a> {
     fn count_by(&mut self, row: &techniques::Row, light: usize) -> counting::LightCount {
         let posed = &self.pose.lights[light];
         // The stencil is shown everywhere, so it is counted everywhere; light is added in range only.
-        let rect = if self.settings.show == Show::Stencil { Some(self.whole()) } else { self.light_rect(light) };
-        let Some(scissor) = rect.filter(|_| posed.shadows) else { return counting::LightCount::default() };
+        let everywhere = matches!(self.settings.show, Show::Stencil | Show::Overflow);
+        let rect = if everywhere { Some(self.whole()) } else { self.light_rect(light) };
+        let Some(scissor) = rect.filter(|_| posed.shadows) else {
+            return counting::LightCount { budget: self.plan.budget, ..counting::LightCount::default() };
+        };
         let view = &self.plan.views[0];
         let casters: Vec<_> = self
             .scene
@@ -349,7 +366,26 @@ impl<'a> Frame<'a> {
                 cutout: OnceCell::new(),
             })
             .collect();
-        counting::count_light(row, &casters, light, scissor, self.plan.budget, &mut self.plan.volumes)
+        let count = counting::count_light(row, &casters, &self.ask(light, scissor), &mut self.plan.volumes);
+        // The points of one light have much the same to say.
+        let about = format!("light {}: ", posed.of);
+        if !self.plan.notes.iter().any(|note| note.starts_with(&about)) {
+            self.plan.notes.extend(count.notes.iter().cloned());
+        }
+        count
+    }
+
+    fn ask(&self, light: usize, scissor: [u32; 4]) -> counting::Ask<'a> {
+        let counting = self.settings.counting;
+        counting::Ask {
+            capabilities: self.capabilities,
+            light,
+            scissor,
+            samples: self.plan.samples,
+            budget: self.plan.budget,
+            overflow: counting.overflow,
+            values: self.settings.show == Show::Stencil,
+        }
     }
 
     /// Makes sure that the light whose volumes are shown has some, even when nothing counted them.
@@ -388,16 +424,20 @@ impl<'a> Frame<'a> {
     fn clear_all(&mut self, color: [f32; 4], stencil: u8) {
         let why =
             "Depth to infinity (0, reverse-Z), the stencil to how many volumes of the light that is counted first hold the eye.";
-        self.clear("clear".into(), why, Clear { color: Some(color), depth: Some(0.0), stencil: Some(stencil) });
+        self.clear("clear".into(), why, Clear { color: Some(color), depth: Some(0.0), stencil: Some(stencil), counts: None });
     }
 
     fn clear_color(&mut self, color: [f32; 4]) {
         let why = "Depth is laid; colour starts at the grey that means neither lit nor in shadow.";
-        self.clear("clear colour".into(), why, Clear { color: Some(color), depth: None, stencil: None });
+        self.clear("clear colour".into(), why, Clear { color: Some(color), depth: None, stencil: None, counts: None });
     }
 
     fn reset_stencil(&mut self, light: usize, value: u8) {
         let why = "Each light counts anew, from how many of its volumes hold the eye.";
-        self.clear(format!("light {light}: reset the count"), why, Clear { color: None, depth: None, stencil: Some(value) });
+        self.clear(
+            format!("light {light}: reset the count"),
+            why,
+            Clear { color: None, depth: None, stencil: Some(value), counts: None },
+        );
     }
 }

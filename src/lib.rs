@@ -73,11 +73,14 @@
 //! ```text
 //!   bit   7 6 5 4 3 2 1 0
 //!         [  shadow count ]      modulo 256; mirrors will take the high bits
+//!         V [shadow count ]      counting in batches: V, shadowed by a batch before; modulo 128
 //! ```
 //!
 //! [`frame::stencil`] owns them; no other code writes a mask. Counting wraps, so the order of faces does
-//! not matter, and a clear may set any starting value. More than 255 volumes over one pixel would be
-//! mistaken for fewer.
+//! not matter, and a clear may set any starting value. A multiple of the field's size would be taken for
+//! none: the plan bounds how many volumes can lie over one pixel ([`geometry::overlap`]), and where that
+//! is too many it counts in batches, each collapsed into the verdict bit V, or in a float target
+//! ([`techniques::wide`]), whose verdict is then written into the stencil.
 //!
 //! # Exactness
 //!

@@ -3,8 +3,10 @@
 //! The panel edits a [`Settings`], the command line fills one, tests build one; it knows neither
 //! wgpu nor egui, and nothing flows back into it from the renderer.
 
+mod counting;
 mod lighting;
 
+pub use counting::{Counting, MAX_COUNT_BITS, Overflow};
 pub use lighting::{Accumulation, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
 
 use std::collections::BTreeMap;
@@ -25,6 +27,8 @@ pub struct Settings {
     pub floor: bool,
     /// How shadows are counted.
     pub technique: Technique,
+    /// In how many bits, and what happens where they are too few.
+    pub counting: Counting,
     /// What is shown of it.
     pub show: Show,
     /// The classic mistake that the frame makes on purpose.
@@ -67,6 +71,7 @@ impl Default for Settings {
             scene: SceneChoice::default(),
             floor: false,
             technique: Technique::default(),
+            counting: Counting::default(),
             show: Show::default(),
             failure: None,
             light: 0,
@@ -213,6 +218,8 @@ named! {
         ZFail = "z-fail",
         /// Sides only, counted from the eye's own count, exact at the near plane.
         ExactZPass = "exact-z-pass",
+        /// Z-fail in a float target.
+        Wide = "wide",
         /// Z-fail in two passes, of one face each.
         OneSided = "one-sided",
         /// Z-fail with a volume for each polygon.
@@ -238,6 +245,9 @@ pub enum Show {
     /// One light's verdict, exact: white lit, black in shadow, mid-grey where there is no surface
     /// or the light's range ends before it.
     Shadow,
+    /// What the count's bits make of one light's true count: where they hold it, where it wraps, and
+    /// where it wraps to zero.
+    Overflow,
     /// The picture with one light's shadow volumes drawn over it.
     Volumes,
     /// The picture with every triangle's edges.
@@ -278,7 +288,7 @@ named! {
 
 impl Show {
     /// Everything that can be shown, in the order people see them.
-    pub const ALL: [Self; 5] = [Self::Final, Self::Stencil, Self::Shadow, Self::Volumes, Self::Wireframe];
+    pub const ALL: [Self; 6] = [Self::Final, Self::Stencil, Self::Shadow, Self::Overflow, Self::Volumes, Self::Wireframe];
 
     /// The name on the command line and in files.
     #[must_use]
@@ -287,6 +297,7 @@ impl Show {
             Self::Final => "final",
             Self::Stencil => "stencil",
             Self::Shadow => "shadow",
+            Self::Overflow => "overflow",
             Self::Volumes => "volumes",
             Self::Wireframe => "wireframe",
         }
@@ -299,6 +310,9 @@ impl Show {
             Self::Final => "the lit picture",
             Self::Stencil => "one light's stencil count in false colour, with a legend",
             Self::Shadow => "one light's verdict, exact: white lit, black in shadow, grey out of range or no surface",
+            Self::Overflow => {
+                "what the count's bits make of one light's true count: blue held, amber wrapped, red taken for light"
+            }
             Self::Volumes => "one light's shadow volumes drawn over the picture",
             Self::Wireframe => "every triangle's edges drawn over the picture",
         }

@@ -155,7 +155,8 @@ fn validation_finds_each_kind_of_fault() {
     assert!(spoil(|draw| draw.state.near_plane = NearPlane::Clip).contains("depth clamp"));
     assert!(spoil(|draw| draw.state.depth = Depth::NEVER).contains("Never"));
     assert!(spoil(|draw| draw.light = Some(1)).contains("another light"));
-    assert!(spoil(|draw| draw.set = DrawSet::FullScreen).contains("only volumes"));
+    assert!(spoil(|draw| draw.set = DrawSet::Edges(vec![0])).contains("only volumes"));
+    assert!(spoil(|draw| draw.set = DrawSet::FullScreen).contains("replaces"));
     assert!(
         spoil(|draw| {
             draw.stencil_reference = 1;

@@ -23,3 +23,12 @@ fn volume_in_object(vertex: vec4f, volume: u32) -> vec4f {
     }
     return select(thrown, vec4f(vertex.xyz, 1.0), vertex.w == 1.0);
 }
+
+struct VolumePoint {
+    @invariant @builtin(position) clip: vec4f,
+}
+
+@vertex
+fn volume_vertex(@location(0) vertex: vec4f, @builtin(instance_index) volume: u32) -> VolumePoint {
+    return VolumePoint(volume_position(vertex, volume));
+}

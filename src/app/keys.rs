@@ -134,7 +134,12 @@ pub static TABLE: &[Row] = &[
         ],
     ),
     row(Group::Picture, "T", "next technique", &[press(Key::T, Command::NextTechnique)]),
-    row(Group::Picture, "V", "next view: final, stencil, shadow, volumes, wireframe", &[press(Key::V, Command::NextShow)]),
+    row(
+        Group::Picture,
+        "V",
+        "next view: final, stencil, shadow, overflow, volumes, wireframe",
+        &[press(Key::V, Command::NextShow)],
+    ),
     row(Group::Picture, "L", "next light for stencil, shadow and volumes", &[press(Key::L, Command::NextLight)]),
     row(Group::Picture, "N", "next stock scene", &[press(Key::N, Command::NextScene)]),
     row(Group::Picture, "M", "1 or 4 samples a pixel", &[press(Key::M, Command::ToggleSamples)]),

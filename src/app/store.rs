@@ -98,13 +98,14 @@ impl Stored {
         settings.time = defaults.time;
         // Each part is judged by itself, as the command line's are: one that was refused would keep the
         // program from starting until somebody found the file.
-        let parts: [fn(&mut Settings, Settings); 6] = [
+        let parts: [fn(&mut Settings, Settings); 7] = [
             |to, from| to.samples = from.samples,
             |to, from| to.fov = from.fov,
             |to, from| to.exposure = from.exposure,
             |to, from| to.camera = from.camera,
             |to, from| to.lights = from.lights,
             |to, from| to.lighting = from.lighting,
+            |to, from| to.counting = from.counting,
         ];
         for part in parts {
             let mut alone = Settings::default();

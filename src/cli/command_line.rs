@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{light_edit, lighting as lighting_options, needs_dot};
+use super::{counting as counting_options, light_edit, lighting as lighting_options, needs_dot};
 use crate::scene::AnimationChoice;
 use crate::settings::{CameraChoice, SceneChoice, Settings};
 
@@ -33,6 +33,7 @@ pub fn render_command(settings: &Settings) -> String {
         exposure,
         lights,
         lighting,
+        counting,
         adapter,
         shaders,
     } = settings;
@@ -102,6 +103,7 @@ pub fn render_command(settings: &Settings) -> String {
         line.option("--light-edit", &light_edit::format(*light, edit));
     }
     lighting_options::write(lighting, &mut line);
+    counting_options::write(counting, &mut line);
     if let Some(adapter) = adapter {
         line.option("--adapter", adapter);
     }

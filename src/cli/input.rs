@@ -3,7 +3,7 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::lighting;
+use super::{counting, lighting};
 use crate::scene::{AnimationChoice, LightKind, Scene};
 use crate::settings::{CameraChoice, LightEdit, MAX_SIZE, Settings, SlideChoice};
 
@@ -145,6 +145,7 @@ pub fn check(settings: &Settings) -> Result<(), InputError> {
     at_least_zero("the time", settings.time)?;
     bounded("the exposure", f64::from(settings.exposure), Some(f64::from(MAX_EXPOSURE)))?;
     settings.lights.iter().try_for_each(|(light, edit)| check_light(*light, edit))?;
+    counting::check(&settings.counting)?;
     lighting::check(&settings.lighting)
 }
 

@@ -9,7 +9,9 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
-use crate::settings::{Accumulation, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, SlideChoice, Texturing};
+use crate::settings::{
+    Accumulation, Counting, Lighting, MAX_AREA_SAMPLES, MAX_COUNT_BITS, MAX_FRAMES, Overflow, SlideChoice, Texturing,
+};
 
 fn command(line: &str) -> Result<Command, InputError> {
     parse(shlex::split(line).unwrap()).unwrap_or_else(|error| panic!("{line}: {error}")).command()
@@ -42,7 +44,7 @@ fn clap_finds_no_fault_in_the_definition() {
 #[test]
 fn every_argument_reaches_its_setting() {
     let got = settings(
-        "obscura render fox.glb --out a.png --technique z-pass --show stencil --failure saturating --light 2 --size 64x32 --samples 4 \
+        "obscura render fox.glb --out a.png --technique z-pass --count-bits 3 --overflow naive --show stencil --failure saturating --light 2 --size 64x32 --samples 4 \
          --eye -1,2.5,3e2 --target 0,0,-1 --fov 33.5 --far 7.5 --time 1.25 --animation 3 --floor --exposure -1.5 \
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --light-sample 3 --accumulate 256 \
@@ -63,6 +65,7 @@ fn every_argument_reaches_its_setting() {
         scene: SceneChoice::File("fox.glb".into()),
         floor: true,
         technique: Technique::ZPass,
+        counting: Counting { bits: 3, overflow: Overflow::Naive },
         show: Show::Stencil,
         failure: Some(Failure::Saturating),
         light: 2,
@@ -157,7 +160,7 @@ fn the_windows_saved_settings_stay_unless_a_scene_is_named() {
 fn what_names_nothing_or_lies_out_of_range_is_one_line_of_bad_input() {
     for (arguments, expected) in [
         ("--technique zfail", "no technique `zfail`; there are: none, z-pass, z-fail, exact-z-pass"),
-        ("--show all", "no show `all`; there are: final, stencil, shadow, volumes, wireframe"),
+        ("--show all", "no show `all`; there are: final, stencil, shadow, overflow, volumes, wireframe"),
         ("--size 0x10", "0x10"),
         ("--size 99999999999999999999999x10", "each side must be 1 to 8192"),
         ("--size 8193x10", "8193x10"),
@@ -356,6 +359,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
     let rest = (
         prop::collection::btree_map(any::<usize>(), any_edit(), 0..4),
         lighting,
+        (1..=MAX_COUNT_BITS, prop::sample::select(&Overflow::ALL[..])).prop_map(|(bits, overflow)| Counting { bits, overflow }),
         prop::option::of(word()),
         prop::option::of(word().prop_filter("a folder", |path| !path.is_empty()).prop_map(PathBuf::from)),
         prop::option::of(prop::sample::select(&Failure::ALL[..])),
@@ -364,11 +368,12 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         |(
             (scene, floor, technique, show, light, size, samples),
             (camera, fov, far, time, animation, smooth_terminator, exposure),
-            (lights, lighting, adapter, shaders, failure),
+            (lights, lighting, counting, adapter, shaders, failure),
         )| Settings {
             scene,
             floor,
             technique,
+            counting,
             show,
             failure,
             light,

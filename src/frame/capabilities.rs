@@ -15,8 +15,42 @@ pub struct Capabilities {
     pub four_samples: bool,
     /// Depth can be kept in floats (`DEPTH32FLOAT_STENCIL8`).
     pub float_depth: bool,
+    /// What counts beyond the stencil are added up in.
+    pub wide_counts: WideCounts,
+    /// Four samples a pixel can be counted so, each by itself.
+    pub wide_four_samples: bool,
     /// Pixels a side.
     pub max_size: u32,
+}
+
+/// The format that wide counts are added up in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WideCounts {
+    /// R32Float (`FLOAT32_BLENDABLE`).
+    Float32,
+    /// R16Float, which every device can blend.
+    Float16,
+}
+
+impl WideCounts {
+    /// The largest sum of ones, in any order, that is exact.
+    #[must_use]
+    pub const fn largest(self) -> u32 {
+        match self {
+            Self::Float32 => 1 << 24,
+            Self::Float16 => 1 << 11,
+        }
+    }
+
+    /// As WebGPU calls it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Float32 => "R32Float",
+            Self::Float16 => "R16Float",
+        }
+    }
 }
 
 /// Something the device lacks.
@@ -38,6 +72,8 @@ impl Capabilities {
             timestamps: true,
             four_samples: true,
             float_depth: true,
+            wide_counts: WideCounts::Float32,
+            wide_four_samples: true,
             max_size: 8192,
         }
     }
@@ -59,6 +95,13 @@ impl Capabilities {
                 },
             ),
             (self.four_samples, Lack { feature: "4 samples a pixel", instead: "1 sample is used" }),
+            (
+                self.wide_counts == WideCounts::Float32,
+                Lack {
+                    feature: "blending of R32Float (FLOAT32_BLENDABLE)",
+                    instead: "the wide count is R16Float, exact to 2048",
+                },
+            ),
         ]
         .into_iter()
         .filter_map(|(there, lack)| (!there).then_some(lack))

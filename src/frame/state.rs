@@ -67,7 +67,10 @@ impl Depth {
     /// Light caps whose own surface is surely in the depth buffer: they can never be nearer, so the
     /// test that would decide by equality is not asked (DESIGN section 4).
     pub const NEVER: Self = Self::plain(Compare::Never, false);
-    /// Full-screen steps: depth has no say.
+    /// What is counted by colour instead of stencil, behind the surface: all that [`Self::NEARER`]
+    /// refuses.
+    pub const NOT_NEARER: Self = Self::plain(Compare::LessEqual, false);
+    /// Full-screen steps, and whatever counts everywhere: depth has no say.
     pub const IGNORE: Self = Self::plain(Compare::Always, false);
 
     const fn plain(compare: Compare, write: bool) -> Self {

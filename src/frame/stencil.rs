@@ -1,12 +1,18 @@
 //! The stencil's eight bits: who owns them, the named operations, and words for people.
 //!
-//! This module owns the budget (DESIGN section 5); no other code writes a mask. In this version
-//! shadow counts take all eight bits; mirrors will take the high ones.
+//! This module owns the budget (DESIGN section 5); no other code writes a mask. Increment adds to the
+//! whole byte, so only the low field can count; it takes all bits that nobody else needs (mirrors will
+//! take the high ones), or as many as the settings say.
 //!
 //! ```text
 //!   bit   7 6 5 4 3 2 1 0
-//!         [  shadow count ]
+//!         [ shadow count  ]      modulo 256
+//!         V [shadow count ]      V: shadowed by a batch before; modulo 128
 //! ```
+//!
+//! A light whose volumes could lie over one pixel more often than the field can tell apart is counted
+//! in batches ([`BitBudget::batched`]): after each, one full-screen step ([`StencilState::collapse`])
+//! turns every count that is not zero into the verdict bit and starts the field anew.
 
 use serde::Serialize;
 
@@ -17,11 +23,58 @@ use super::state::Compare;
 pub struct BitBudget {
     /// The low field: how many volumes hold the pixel, modulo its size.
     pub count_mask: u8,
+    /// One bit above the field, or none: the pixel was found in shadow by a batch of volumes that is
+    /// no longer counted.
+    pub verdict_mask: u8,
 }
 
 impl Default for BitBudget {
     fn default() -> Self {
-        Self { count_mask: 0xff }
+        Self::of_bits(8)
+    }
+}
+
+impl BitBudget {
+    /// A field of 1 to 8 bits.
+    #[must_use]
+    pub const fn of_bits(bits: u32) -> Self {
+        Self {
+            count_mask: u8::MAX
+                >> (8 - if bits < 1 {
+                    1
+                } else if bits > 8 {
+                    8
+                } else {
+                    bits
+                }),
+            verdict_mask: 0,
+        }
+    }
+
+    /// The largest count that the field tells from all smaller ones.
+    #[must_use]
+    pub const fn largest(self) -> u32 {
+        self.count_mask as u32
+    }
+
+    /// What counting may ever write in a frame of this budget: with batches or without.
+    #[must_use]
+    pub const fn reserved(self) -> u8 {
+        self.shadow_mask() | self.batched().shadow_mask()
+    }
+
+    /// The field and the verdict bit.
+    #[must_use]
+    pub const fn shadow_mask(self) -> u8 {
+        self.count_mask | self.verdict_mask
+    }
+
+    /// The same with a verdict bit: the bit above the field, or the field's own highest where there
+    /// is none above it.
+    #[must_use]
+    pub const fn batched(self) -> Self {
+        let count_mask = if self.count_mask == u8::MAX { u8::MAX >> 1 } else { self.count_mask };
+        Self { count_mask, verdict_mask: count_mask + 1 }
     }
 }
 
@@ -144,7 +197,33 @@ impl StencilState {
         Self { front: face, back: face, read_mask: mask, write_mask: mask }
     }
 
-    /// Passes where the count equals the reference, and changes nothing.
+    /// Between two batches, full screen: a count that is not zero becomes zero and leaves the verdict
+    /// bit behind. The reference is the verdict bit: none of the field's, so that it compares as
+    /// zero, and the very value to store.
+    #[must_use]
+    pub const fn collapse(budget: BitBudget) -> Self {
+        let face = StencilFace { pass: StencilOp::Replace, ..StencilFace::test(Compare::NotEqual) };
+        Self { front: face, back: face, read_mask: budget.count_mask, write_mask: budget.shadow_mask() }
+    }
+
+    /// The field becomes the reference, whatever it was; the verdict bit stays.
+    #[must_use]
+    pub const fn set_count(budget: BitBudget) -> Self {
+        Self::replace(budget.count_mask)
+    }
+
+    /// One bit of the field becomes the reference's, whatever it was.
+    #[must_use]
+    pub const fn set_bit(budget: BitBudget, bit: u32) -> Self {
+        Self::replace(budget.count_mask & (1 << bit))
+    }
+
+    const fn replace(mask: u8) -> Self {
+        let face = StencilFace::count(Keep, StencilOp::Replace);
+        Self { front: face, back: face, read_mask: mask, write_mask: mask }
+    }
+
+    /// Passes where the count equals the reference, with no verdict beside it, and changes nothing.
     #[must_use]
     pub const fn count_equals(budget: BitBudget) -> Self {
         Self::compare_count(budget, Compare::Equal)
@@ -157,7 +236,8 @@ impl StencilState {
     }
 
     const fn compare_count(budget: BitBudget, compare: Compare) -> Self {
-        Self { front: StencilFace::test(compare), back: StencilFace::test(compare), read_mask: budget.count_mask, write_mask: 0 }
+        let face = StencilFace::test(compare);
+        Self { front: face, back: face, read_mask: budget.shadow_mask(), write_mask: 0 }
     }
 
     /// Whether any operation changes stored bits.

@@ -37,13 +37,17 @@ pub struct Clear {
     pub depth: Option<f32>,
     /// All eight bits: an attachment clear knows no mask.
     pub stencil: Option<u8>,
+    /// Of [`Target::Counts`].
+    pub counts: Option<f32>,
 }
 
 impl Action {
-    /// The same, drawn to another target.
+    /// The same, what is drawn to [`Target::Scene`] drawn to another target.
     #[must_use]
     pub fn onto(mut self, target: Target) -> Self {
-        if let Self::Draw(draw) = &mut self {
+        if let Self::Draw(draw) = &mut self
+            && draw.target == Target::Scene
+        {
             draw.target = target;
         }
         self
@@ -125,6 +129,8 @@ pub enum Target {
     Output,
     /// The picture itself, under the scene's depth and stencil: for frames that need no accumulation.
     Direct,
+    /// One number a sample that counts beyond the stencil, under the scene's depth.
+    Counts,
 }
 
 /// Which shaders a step runs; [`crate::gpu::shaders`] says where each is written.
@@ -147,6 +153,8 @@ pub enum Program {
     VolumeMismatched,
     /// Shadow volumes as coloured glass.
     VolumeGlass,
+    /// Shadow volumes as numbers: the constant's red for back faces, its negative for front faces.
+    VolumeNumbers,
     /// One light's verdict in plain values.
     Verdict,
     /// Blended surfaces in every light, unshadowed.
@@ -171,6 +179,16 @@ pub enum Program {
     Labels,
     /// Surfaces' textures, without any light.
     Texture,
+    /// Full screen, no colour: the stencil's operations alone.
+    StencilOnly,
+    /// Full screen, no colour, where [`Target::Counts`] is not zero.
+    WideVerdict,
+    /// The same, for every sample of several.
+    WideVerdictEach,
+    /// Full screen, no colour, where bit number red of [`Target::Counts`], at most green, is set.
+    WideBit,
+    /// Full screen: what a field of as many values as the constant's red makes of [`Target::Counts`].
+    WideOverflow,
 }
 
 /// What a step draws, by number.

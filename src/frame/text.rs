@@ -66,6 +66,9 @@ impl Display for FramePlan {
                     if let Some(stencil) = clear.stencil {
                         parts.push(format!("stencil {stencil}"));
                     }
+                    if let Some(counts) = clear.counts {
+                        parts.push(format!("counts {counts}"));
+                    }
                     writeln!(f, "     clear {}", parts.join(", "))?;
                 }
                 Action::Draw(draw) => describe(f, draw)?,

@@ -5,8 +5,9 @@ use serde::Serialize;
 use thiserror::Error;
 
 use super::plan::{FramePlan, Method};
-use super::state::{Compare, NearPlane};
-use super::step::{Action, Draw, DrawSet, Part, Target};
+use super::state::{Blend, Compare, NearPlane, State};
+use super::stencil::StencilOp;
+use super::step::{Action, Draw, DrawSet, Part, Program, Target};
 
 /// A rule that a plan may break on purpose, where it shows what comes of it: see
 /// [`crate::failures`]. All others hold always.
@@ -50,6 +51,11 @@ pub fn validate(plan: &FramePlan) -> Result<(), Fault> {
                 state.stencil_set |= clear.stencil.is_some();
                 if clear.stencil.is_some() {
                     state.counting = false;
+                    state.counted = None;
+                }
+                if clear.counts.is_some() {
+                    state.counts_set = true;
+                    state.wide = None;
                 }
             }
             Action::Draw(draw) => check_draw(plan, draw, &mut state).map_err(fault)?,
@@ -75,6 +81,11 @@ struct Progress {
     output_begun: bool,
     /// The picture is drawn directly, under the scene's depth and stencil.
     direct: bool,
+    /// Whose volumes the stencil counts, since it was cleared.
+    counted: Option<usize>,
+    counts_set: bool,
+    /// Whose volumes are counted beyond the stencil, since the counts were cleared.
+    wide: Option<usize>,
 }
 
 fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(), &'static str> {
@@ -103,11 +114,14 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
             }
             return Ok(());
         }
-        Target::Scene | Target::Direct if state.gathered => return Err("it draws the scene after the frame joined the mean"),
+        Target::Scene | Target::Direct | Target::Counts if state.gathered => {
+            return Err("it draws the scene after the frame joined the mean");
+        }
         Target::Direct if plan.samples != 1 => return Err("the picture has one sample a pixel"),
         Target::Direct => state.direct = true,
         Target::Scene if state.output_begun || state.direct => return Err("it draws the scene after the picture has begun"),
-        Target::Scene => {}
+        Target::Counts if state.output_begun => return Err("it draws the scene after the picture has begun"),
+        Target::Scene | Target::Counts => {}
     }
     if !(state.color_set && state.depth_set) {
         return Err("it draws before colour and depth were cleared");
@@ -116,11 +130,25 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
     if (stencil.tests() || stencil.writes()) && !state.stencil_set {
         return Err("it tests or writes stencil bits that nobody set");
     }
-    if stencil.writes() && stencil.write_mask & !plan.budget.count_mask != 0 {
+    if stencil.writes() && stencil.write_mask & !plan.budget.reserved() != 0 {
         return Err("it writes stencil bits outside its budget");
     }
-    if stencil.tests() && draw.stencil_reference & !stencil.read_mask != 0 {
-        return Err("its stencil reference does not fit its mask");
+    if (stencil.tests() || stencil.writes()) && draw.stencil_reference & !(stencil.read_mask | stencil.write_mask) != 0 {
+        return Err("its stencil reference does not fit its masks");
+    }
+    if draw.target == Target::Counts {
+        return check_wide(plan, draw, state);
+    }
+    if draw.program == Program::VolumeNumbers {
+        return Err("numbers are added up where counts are, and nowhere else");
+    }
+    let reads_counts =
+        matches!(draw.program, Program::WideVerdict | Program::WideVerdictEach | Program::WideBit | Program::WideOverflow);
+    if reads_counts && (state.wide.is_none() || state.wide != draw.light) {
+        return Err("it reads counts of a light that was not counted wide");
+    }
+    if reads_counts && (draw.program == Program::WideVerdictEach) != (plan.samples != 1) {
+        return Err("it reads counts of another number of samples");
     }
     if draw.state.depth.write && state.counting {
         return Err("it writes depth after counting began: the count would belong to another surface");
@@ -129,7 +157,13 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
         return Err("names belong over the picture, not into the scene");
     }
     if let DrawSet::Volumes(parts) = &draw.set {
-        state.counting |= stencil.writes();
+        if stencil.writes() {
+            state.counting = true;
+            if state.counted.is_some_and(|light| Some(light) != draw.light) {
+                return Err("it counts on top of another light's count");
+            }
+            state.counted = draw.light;
+        }
         for part in parts {
             let volume = plan.volumes.get(part.volume).ok_or("it draws a volume that is not planned")?;
             if volume.winding != draw.state.winding {
@@ -155,7 +189,78 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
             }
         }
     } else if stencil.writes() {
+        return check_full_screen(draw, state);
+    }
+    Ok(())
+}
+
+/// A full-screen step that sets bits: the start of a count, its collapse, or a verdict read from wide
+/// counts. It replaces, everywhere or where a count is not zero.
+fn check_full_screen(draw: &Draw, state: &mut Progress) -> Result<(), &'static str> {
+    if draw.set != DrawSet::FullScreen {
         return Err("only volumes are counted");
+    }
+    let stencil = &draw.state.stencil;
+    let face = &stencil.front;
+    let replaces = |op: StencilOp| op == StencilOp::Replace;
+    if stencil.back != stencil.front || !replaces(face.pass) || replaces(face.fail) || replaces(face.depth_fail) {
+        return Err("a full-screen step replaces where stencil and depth pass, and does nothing else");
+    }
+    if draw.state.depth.compare != Compare::Always {
+        return Err("a full-screen step lies at infinity: depth must have no say");
+    }
+    match face.compare {
+        Compare::Always => {}
+        Compare::NotEqual if state.counted != draw.light => return Err("it collapses a count that was not made"),
+        // The field must come out as zero, so that the next batch starts where it should.
+        Compare::NotEqual if stencil.read_mask & !stencil.write_mask != 0 || draw.stencil_reference & stencil.read_mask != 0 => {
+            return Err("it leaves a part of the count that it collapses");
+        }
+        Compare::NotEqual if draw.stencil_reference & stencil.write_mask == 0 => {
+            return Err("it collapses a count and leaves no verdict");
+        }
+        Compare::NotEqual => {}
+        _ => return Err("a full-screen step asks whether the count is zero, or nothing"),
+    }
+    state.counting = true;
+    if state.counted.is_some_and(|light| Some(light) != draw.light) {
+        return Err("it counts on top of another light's count");
+    }
+    state.counted = draw.light;
+    Ok(())
+}
+
+/// Counting by addition: z-fail, with the stencil's operations as numbers.
+fn check_wide(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(), &'static str> {
+    let DrawSet::Volumes(parts) = &draw.set else { return Err("only volumes are counted") };
+    if !state.counts_set || state.wide.is_some_and(|light| Some(light) != draw.light) {
+        return Err("it counts on top of another light's count");
+    }
+    state.wide = draw.light;
+    let State { depth, stencil, color, near_plane, .. } = draw.state;
+    if stencil.tests() || stencil.writes() || depth.write || color != Some(Blend::Add) || near_plane != NearPlane::Clip {
+        return Err("wide counts are added, under depth alone");
+    }
+    for part in parts {
+        let volume = plan.volumes.get(part.volume).ok_or("it draws a volume that is not planned")?;
+        if volume.winding != draw.state.winding {
+            return Err("its winding is not its volume's: fronts would count as backs");
+        }
+        if Some(volume.light) != draw.light {
+            return Err("it counts another light's volume");
+        }
+        let light_cap = matches!(part.part, Part::LightCapKept | Part::LightCapTurned);
+        let everywhere = light_cap && volume.method == Method::ZFail;
+        if !matches!(volume.method, Method::ZFail | Method::ZFailCompared) {
+            return Err("wide counts are z-fail's");
+        }
+        if depth.compare != if everywhere { Compare::Always } else { Compare::LessEqual } {
+            return Err("wide counts take what is not nearer, and light caps whose surface is surely there");
+        }
+        let turned = if part.part == Part::LightCapTurned { -1.0 } else { 1.0 };
+        if draw.constant[0] != turned {
+            return Err("it adds with the wrong sign");
+        }
     }
     Ok(())
 }

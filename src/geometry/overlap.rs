@@ -81,12 +81,22 @@ pub fn is_convex(topology: &Topology, positions: &[Vec3]) -> bool {
 }
 
 /// Memory that bounds are found in, kept from one caster to the next.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct OverlapScratch {
+    /// How many edges may still be looked at to make bounds smaller than the plain sweep's.
+    pub patience: usize,
     facing: Facing,
     edges: Vec<[u32; 2]>,
     seen: Vec<DVec3>,
     sweep: Sweep,
+}
+
+impl Default for OverlapScratch {
+    fn default() -> Self {
+        /// Some milliseconds.
+        const PATIENCE: usize = 400_000;
+        Self { patience: PATIENCE, facing: Facing::default(), edges: Vec::new(), seen: Vec::new(), sweep: Sweep::default() }
+    }
 }
 
 impl OverlapScratch {
@@ -98,7 +108,7 @@ impl OverlapScratch {
         self.facing.decide(topology, planes, light);
         let counted = self.facing.contributions().iter().filter(|counts| **counts != 0).count();
         let mut best = u32::try_from(counted).unwrap_or(u32::MAX);
-        if best <= enough.max(1) {
+        if best <= 1 {
             return best;
         }
         silhouette(topology, &self.facing, &mut self.edges);
@@ -119,14 +129,14 @@ impl OverlapScratch {
             let bound = if directional {
                 self.seen.extend(welded.iter().map(|vertex| to_sweep * vertex.as_dvec3()));
                 self.sweep.lay_parallel(&self.edges, &self.seen);
-                self.sweep.bound(0, enough)
+                self.sweep.bound(0, enough, &mut self.patience)
             } else {
                 self.seen.extend(welded.iter().map(|vertex| to_sweep * (vertex.as_dvec3() - from)));
                 let Some(at_pole) = self.crossed_at_pole(topology) else { continue };
                 if !self.sweep.lay_meridians(&self.edges, &self.seen) {
                     continue;
                 }
-                self.sweep.bound(at_pole, enough)
+                self.sweep.bound(at_pole, enough, &mut self.patience)
             };
             best = best.min(bound);
             if best <= enough {
@@ -267,7 +277,11 @@ impl Sweep {
             let height = Height::Wave(known.then(|| (level.length(), level.y.atan2(level.x))));
             let enters = if short > 0.0 { 1 } else { -1 };
             let (start, end) = if short > 0.0 { (from, to) } else { (to, from) };
-            let mut push = |start, end| self.edges.push(Edge { start, end, enters, height });
+            let mut push = |start, end| {
+                if start < end {
+                    self.edges.push(Edge { start, end, enters, height });
+                }
+            };
             if start <= end {
                 push(start, end);
             } else {
@@ -279,7 +293,7 @@ impl Sweep {
     }
 
     /// The greatest winding on any line of the sweep, `at_pole` where each begins.
-    fn bound(&mut self, at_pole: u32, enough: u32) -> u32 {
+    fn bound(&mut self, at_pole: u32, enough: u32, patience: &mut usize) -> u32 {
         self.events.clear();
         for (edge, index) in self.edges.iter().zip(0u32..) {
             self.events.push((edge.start, true, index));
@@ -297,15 +311,12 @@ impl Sweep {
             }
             most = most.max(entering);
         }
-        if most <= enough { most } else { self.ordered(at_pole, most, enough) }
+        if most <= enough { most } else { self.ordered(at_pole, most, enough, patience) }
     }
 
     /// The same with the order of the edges on each line, where the number of them is more than
-    /// `enough`; gives up, with what `plain` is, when that takes too long.
-    fn ordered(&mut self, at_pole: u32, plain: u32, enough: u32) -> u32 {
-        /// Edges looked at, in all: some milliseconds.
-        const PATIENCE: usize = 400_000;
-        let mut patience = PATIENCE;
+    /// `enough`; gives up, with what `plain` is, when `patience` ends.
+    fn ordered(&mut self, at_pole: u32, plain: u32, enough: u32, patience: &mut usize) -> u32 {
         self.active.clear();
         self.place.clear();
         self.place.resize(self.edges.len(), 0);
@@ -337,7 +348,7 @@ impl Sweep {
                 continue;
             }
             let Some(left) = patience.checked_sub(self.active.len()) else { return plain };
-            patience = left;
+            *patience = left;
             self.heights.clear();
             self.heights.extend(self.active.iter().map(|&index| {
                 let edge = self.edges[index as usize];
@@ -359,13 +370,17 @@ impl Sweep {
 /// The directions in which a caster's volume lies, seen from the light: a cone about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cone {
-    /// Of a point light: unit axis, and half angle in radians (pi: everywhere).
-    Point(DVec3, f64),
+    /// Of a point light: unit axis, and half angle in radians (pi: everywhere), at most pi / 2 else,
+    /// with its cosine and sine.
+    Point(DVec3, f64, DVec2),
     /// Of a directional light: a place in the plane across the light, and a radius, metres.
     Parallel(DVec2, f64),
 }
 
 impl Cone {
+    /// All directions.
+    pub const EVERYWHERE: Self = Self::Point(DVec3::Y, PI, DVec2::NEG_X);
+
     /// About a box in world space; `light` is a point with w = 1, or the direction towards a
     /// directional light with w = 0.
     #[must_use]
@@ -379,8 +394,11 @@ impl Cone {
         }
         let way = center - light.truncate();
         match way.try_normalize() {
-            Some(axis) if way.length() > grown => Self::Point(axis, (grown / way.length()).asin() + SLACK),
-            _ => Self::Point(DVec3::Y, PI),
+            Some(axis) if way.length() > grown => {
+                let half = (grown / way.length()).asin() + SLACK;
+                Self::Point(axis, half, DVec2::from_angle(half))
+            }
+            _ => Self::EVERYWHERE,
         }
     }
 
@@ -388,7 +406,10 @@ impl Cone {
     #[must_use]
     pub fn may_overlap(&self, other: &Self) -> bool {
         match (self, other) {
-            (Self::Point(a, half_a), Self::Point(b, half_b)) => half_a + half_b >= PI || a.angle_between(*b) <= half_a + half_b,
+            (Self::Point(a, half_a, turn_a), Self::Point(b, half_b, turn_b)) => {
+                // The cosine of the sum of the half angles.
+                half_a + half_b >= PI || a.dot(*b) >= turn_a.x * turn_b.x - turn_a.y * turn_b.y
+            }
             (Self::Parallel(a, radius_a), Self::Parallel(b, radius_b)) => a.distance(*b) <= radius_a + radius_b,
             _ => true,
         }

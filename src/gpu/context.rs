@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use thiserror::Error;
 
-use crate::frame::Capabilities;
+use crate::frame::{Capabilities, WideCounts};
 use crate::settings::Accumulation;
 
 /// What goes wrong between this program and the device: one line each.
@@ -138,12 +138,16 @@ impl Context {
 
         let info = adapter.get_info();
         let four = |format: wgpu::TextureFormat| adapter.get_texture_format_features(format).flags.sample_count_supported(4);
+        let blends_float32 = features.contains(wgpu::Features::FLOAT32_BLENDABLE);
         let capabilities = Capabilities {
             adapter: format!("{} ({})", info.name, info.backend),
             depth_clip_control: features.contains(wgpu::Features::DEPTH_CLIP_CONTROL),
             timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),
             four_samples: four(COLOR_FORMAT) && four(depth_format(features)),
             float_depth: features.contains(wgpu::Features::DEPTH32FLOAT_STENCIL8),
+            wide_counts: if blends_float32 { WideCounts::Float32 } else { WideCounts::Float16 },
+            wide_four_samples: four(counts_format(blends_float32))
+                && adapter.get_downlevel_capabilities().flags.contains(wgpu::DownlevelFlags::MULTISAMPLED_SHADING),
             max_size: limits.max_texture_dimension_2d,
         };
         Ok(Self { instance, adapter, device, queue, capabilities, watch })
@@ -159,6 +163,12 @@ impl Context {
     #[must_use]
     pub fn capabilities(&self) -> &Capabilities {
         &self.capabilities
+    }
+
+    /// What [`crate::frame::Target::Counts`] is made of.
+    #[must_use]
+    pub fn counts_format(&self) -> wgpu::TextureFormat {
+        counts_format(self.capabilities.wide_counts == WideCounts::Float32)
     }
 
     /// Whether the device is gone; everything must then be made anew.
@@ -213,8 +223,16 @@ impl Watch {
 }
 
 /// Used where the device has them; [`Capabilities::lacks`] says what replaces them.
-const WANTED_FEATURES: wgpu::Features =
-    wgpu::Features::DEPTH_CLIP_CONTROL.union(wgpu::Features::DEPTH32FLOAT_STENCIL8).union(wgpu::Features::TIMESTAMP_QUERY);
+const WANTED_FEATURES: wgpu::Features = wgpu::Features::DEPTH_CLIP_CONTROL
+    .union(wgpu::Features::DEPTH32FLOAT_STENCIL8)
+    .union(wgpu::Features::TIMESTAMP_QUERY)
+    .union(wgpu::Features::FLOAT32_BLENDABLE);
+
+/// Sums of ones: R32Float where it can be blended, for it is exact to 2^24; else R16Float, which
+/// every device blends, exact to 2048.
+const fn counts_format(blends_float32: bool) -> wgpu::TextureFormat {
+    if blends_float32 { wgpu::TextureFormat::R32Float } else { wgpu::TextureFormat::R16Float }
+}
 
 fn new_instance() -> wgpu::Instance {
     wgpu::Instance::new(wgpu::InstanceDescriptor {

@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::frame_buffers::{DRAW_STRIDE, FrameBuffers};
 use super::labels::Labels;
-use super::pipelines::{Key, Pipelines};
+use super::pipelines::{Key, Pipelines, Reads, reads};
 use super::scene_buffers::SceneBuffers;
 use super::targets::{Mean, Targets};
 use super::timing::Timing;
@@ -83,7 +83,7 @@ impl CheckedBind for wgpu::RenderPass<'_> {
 }
 
 fn passes(plan: &FramePlan) -> Vec<Pass<'_>> {
-    const KEEP: Clear = Clear { color: None, depth: None, stencil: None };
+    const KEEP: Clear = Clear { color: None, depth: None, stencil: None, counts: None };
     let mut passes: Vec<Pass<'_>> = Vec::new();
     let mut pending: Option<Clear> = None;
     let mut number = 0;
@@ -95,12 +95,21 @@ fn passes(plan: &FramePlan) -> Vec<Pass<'_>> {
                     color: clear.color.or(before.color),
                     depth: clear.depth.or(before.depth),
                     stencil: clear.stencil.or(before.stencil),
+                    counts: clear.counts.or(before.counts),
                 });
             }
             Action::Draw(draw) => {
-                // The mean's and the picture's own passes clear nothing of the scene's.
-                if let Some(clear) = pending.take_if(|_| matches!(draw.target, Target::Mean | Target::Output)) {
+                // The mean's and the picture's own passes clear nothing of the scene's, and the counts' no
+                // colour.
+                let elsewhere = match draw.target {
+                    Target::Scene | Target::Direct => false,
+                    Target::Mean | Target::Output => true,
+                    Target::Counts => pending.is_some_and(|clear| clear.color.is_some()),
+                };
+                if let Some(mut clear) = pending.take_if(|_| elsewhere) {
+                    let counts = clear.counts.take_if(|_| draw.target == Target::Counts);
                     passes.push(Pass { target: Target::Scene, clear, draws: Vec::new() });
+                    pending = counts.map(|counts| Clear { counts: Some(counts), ..KEEP });
                 }
                 let joins = pending.is_none() && passes.last().is_some_and(|pass| pass.target == draw.target);
                 if !joins {
@@ -170,6 +179,25 @@ impl Encode<'_> {
                     ..Default::default()
                 })
             }
+            Target::Counts => encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("counts"),
+                color_attachments: &[self.targets.counts.as_ref().map(|counts| wgpu::RenderPassColorAttachment {
+                    view: &counts.view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: load(pass.clear.counts.map(|red| wgpu::Color { r: red.into(), ..wgpu::Color::BLACK })),
+                        store,
+                    },
+                })],
+                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                    view: &self.targets.depth_stencil,
+                    depth_ops: Some(wgpu::Operations { load: load(pass.clear.depth), store }),
+                    stencil_ops: Some(wgpu::Operations { load: load(pass.clear.stencil), store }),
+                }),
+                timestamp_writes,
+                ..Default::default()
+            }),
             Target::Mean | Target::Output => encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(if pass.target == Target::Mean { "mean" } else { "picture" }),
                 color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -201,14 +229,12 @@ impl Encode<'_> {
         pass.set_scissor_rect(x, y, width, height);
         match &draw.set {
             DrawSet::FullScreen => {
-                let read = match (draw.target, self.mean(plan)) {
-                    (Target::Scene | Target::Direct, _) => None,
-                    (_, None) => Some(&self.targets.read),
-                    (Target::Mean, Some(mean)) => Some(&mean.gather),
-                    (Target::Output, Some(mean)) => Some(&mean.read),
-                };
-                if let Some(read) = read {
-                    pass.set_bind_group(1, read, &[]);
+                match (reads(draw.program, draw.target), &self.targets.counts, self.mean(plan)) {
+                    (Reads::Targets, _, None) => pass.set_bind_group(1, &self.targets.read, &[]),
+                    (Reads::Targets, _, Some(mean)) if draw.target == Target::Mean => pass.set_bind_group(1, &mean.gather, &[]),
+                    (Reads::Targets, _, Some(mean)) => pass.set_bind_group(1, &mean.read, &[]),
+                    (Reads::Counts | Reads::CountsEach, Some(counts), _) => pass.set_bind_group(1, &counts.read, &[]),
+                    _ => {}
                 }
                 pass.draw(0..3, 0..1);
                 drawn.draws += 1;

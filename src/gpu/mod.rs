@@ -33,7 +33,7 @@ pub use targets::Targets;
 use texture::Samplers;
 use timing::Timing;
 
-use crate::frame::{FramePlan, Method};
+use crate::frame::{FramePlan, Method, Target};
 use crate::scene::{Pose, Scene};
 
 /// What one frame took.
@@ -130,9 +130,12 @@ impl Renderer {
             self.targets = None;
             self.targets = Some(Targets::new(context, &self.pipelines.targets_layout, shape)?);
         }
-        let (Some(targets), Some(buffers)) = (&self.targets, &mut self.scene) else {
+        let (Some(targets), Some(buffers)) = (&mut self.targets, &mut self.scene) else {
             return Err(GpuError::Device("no scene was set".into()));
         };
+        if plan.draws().any(|(_, draw)| draw.target == Target::Counts) {
+            targets.with_counts(context, &self.pipelines.counts_layouts);
+        }
         for (instance, (node, _, mesh)) in scene.instances().enumerate() {
             buffers.pose(context, instance, mesh, pose.deformed[node].as_ref());
         }

@@ -29,6 +29,30 @@ pub struct Key {
     pub accumulation: Accumulation,
 }
 
+/// What a full-screen program finds in group 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reads {
+    /// There is none.
+    Nothing,
+    /// Scene colour and stencil.
+    Targets,
+    /// The counts, one sample a pixel.
+    Counts,
+    /// The counts, several samples a pixel.
+    CountsEach,
+}
+
+/// What a program that is no surface's reads, drawing into `target`.
+#[must_use]
+pub fn reads(program: Program, target: Target) -> Reads {
+    match program {
+        Program::WideVerdict | Program::WideBit | Program::WideOverflow => Reads::Counts,
+        Program::WideVerdictEach => Reads::CountsEach,
+        _ if matches!(target, Target::Mean | Target::Output) => Reads::Targets,
+        _ => Reads::Nothing,
+    }
+}
+
 /// Bind group layouts, shader modules and the pipelines made so far.
 pub struct Pipelines {
     /// Group 0: frame, objects, lights, volumes, draw, slides and their sampler.
@@ -39,10 +63,13 @@ pub struct Pipelines {
     pub targets_layout: wgpu::BindGroupLayout,
     /// Group 1 of names: the atlas of glyphs.
     pub labels_layout: wgpu::BindGroupLayout,
+    /// Group 1 of programs that read the counts, of one sample and of several.
+    pub counts_layouts: [wgpu::BindGroupLayout; 2],
     bare: wgpu::PipelineLayout,
     surface: wgpu::PipelineLayout,
     picture: wgpu::PipelineLayout,
     labels: wgpu::PipelineLayout,
+    counts: [wgpu::PipelineLayout; 2],
     modules: HashMap<&'static str, wgpu::ShaderModule>,
     made: HashMap<Key, wgpu::RenderPipeline>,
 }
@@ -132,6 +159,13 @@ impl Pipelines {
             ],
         );
         let labels_layout = layout("glyphs", &[sampled(0, wgpu::TextureSampleType::Float { filterable: false })]);
+        let counts_layouts = [false, true].map(|multisampled| {
+            let mut entry = sampled(0, wgpu::TextureSampleType::Float { filterable: false });
+            if let wgpu::BindingType::Texture { multisampled: of_entry, .. } = &mut entry.ty {
+                *of_entry = multisampled;
+            }
+            layout("counts", &[entry])
+        });
         let pipeline_layout = |label, groups: &[&wgpu::BindGroupLayout]| {
             let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
             device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -147,6 +181,8 @@ impl Pipelines {
             picture: pipeline_layout("picture", &[&frame_layout, &targets_layout]),
             labels: pipeline_layout("labels", &[&frame_layout, &labels_layout]),
             labels_layout,
+            counts: counts_layouts.each_ref().map(|counts| pipeline_layout("counts", &[&frame_layout, counts])),
+            counts_layouts,
             frame_layout,
             material_layout,
             targets_layout,
@@ -203,16 +239,19 @@ impl Pipelines {
     fn make(&self, context: &Context, key: &Key) -> wgpu::RenderPipeline {
         let entry = entry_of(key.program);
         let module = &self.modules[entry.file];
-        let layout = match (entry.vertices, key.target) {
+        let layout = match (entry.vertices, reads(key.program, key.target)) {
             (Vertices::Surface, _) => &self.surface,
             (Vertices::Labels, _) => &self.labels,
-            (_, Target::Mean | Target::Output) => &self.picture,
-            _ => &self.bare,
+            (_, Reads::Targets) => &self.picture,
+            (_, Reads::Counts) => &self.counts[0],
+            (_, Reads::CountsEach) => &self.counts[1],
+            (_, Reads::Nothing) => &self.bare,
         };
         let format = match key.target {
             Target::Scene => color_format(key.accumulation),
             Target::Mean => MEAN_FORMAT,
             Target::Direct | Target::Output => key.output,
+            Target::Counts => context.counts_format(),
         };
         let targets = [Some(wgpu::ColorTargetState {
             format,
@@ -222,7 +261,7 @@ impl Pipelines {
         let constants = constants(entry.overrides, key);
         let compilation_options =
             || wgpu::PipelineCompilationOptions { constants: &constants, ..wgpu::PipelineCompilationOptions::default() };
-        let in_scene = matches!(key.target, Target::Scene | Target::Direct);
+        let in_scene = matches!(key.target, Target::Scene | Target::Direct | Target::Counts);
         context.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(entry.fragment),
             layout: Some(layout),

@@ -2,7 +2,7 @@
 
 use super::context::{Context, GpuError};
 use super::{FrameStats, Renderer};
-use crate::frame::FramePlan;
+use crate::frame::{FramePlan, WideCounts};
 use crate::scene::{Pose, Scene};
 
 /// The format pictures are drawn in without a window.
@@ -52,6 +52,37 @@ pub fn stencil(context: &Context, renderer: &Renderer) -> Result<Vec<u8>, GpuErr
         return Err(GpuError::Device("the stencil of several samples cannot be read".into()));
     }
     read(context, &targets.depth_stencil_texture, wgpu::TextureAspect::StencilOnly, 1, targets.shape.size)
+}
+
+/// What the last frame that counted beyond the stencil counted, rows from the top; frames of one
+/// sample only.
+///
+/// # Errors
+/// No such frame yet, several samples, or a device that does not answer.
+pub fn counts(context: &Context, renderer: &Renderer) -> Result<Vec<f32>, GpuError> {
+    let counts = renderer.targets().and_then(|targets| targets.counts.as_ref().map(|counts| (counts, targets)));
+    let (counts, targets) = counts.ok_or_else(|| GpuError::Device("nothing was counted wide yet".into()))?;
+    if targets.shape.samples != 1 {
+        return Err(GpuError::Device("the counts of several samples cannot be read".into()));
+    }
+    let aspect = wgpu::TextureAspect::All;
+    Ok(match context.capabilities().wide_counts {
+        WideCounts::Float32 => {
+            let bytes = read(context, &counts.texture, aspect, 4, targets.shape.size)?;
+            bytes.as_chunks::<4>().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect()
+        }
+        WideCounts::Float16 => {
+            let bytes = read(context, &counts.texture, aspect, 2, targets.shape.size)?;
+            bytes.as_chunks::<2>().0.iter().map(|bytes| half(u16::from_le_bytes(*bytes))).collect()
+        }
+    })
+}
+
+/// A half-precision float, finite, in single precision.
+fn half(bits: u16) -> f32 {
+    let (exponent, mantissa) = (i32::from(bits >> 10 & 31), f32::from(bits & 1023));
+    let size = if exponent == 0 { mantissa * 2f32.powi(-24) } else { (1024.0 + mantissa) * 2f32.powi(exponent - 25) };
+    if bits >> 15 == 1 { -size } else { size }
 }
 
 fn read(

@@ -26,6 +26,8 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("wireframe.wgsl", include_str!("../../shaders/wireframe.wgsl")),
     ("texture.wgsl", include_str!("../../shaders/texture.wgsl")),
     ("labels.wgsl", include_str!("../../shaders/labels.wgsl")),
+    ("stencil_only.wgsl", include_str!("../../shaders/stencil_only.wgsl")),
+    ("wide.wgsl", include_str!("../../shaders/wide.wgsl")),
     ("output.wgsl", include_str!("../../shaders/output.wgsl")),
 ];
 
@@ -106,6 +108,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::Volume, "volume.wgsl", "volume_vertex", "volume_count", Vertices::Volume, &[]),
     entry(Program::VolumeMismatched, "volume.wgsl", "volume_vertex_mismatched", "volume_count", Vertices::Volume, &[]),
     entry(Program::VolumeGlass, "volume.wgsl", "volume_vertex", "volume_glass", Vertices::Volume, &[]),
+    entry(Program::VolumeNumbers, "wide.wgsl", "volume_vertex", "volume_numbers", Vertices::Volume, &[]),
     entry(Program::Verdict, "verdict.wgsl", "surface_vertex", "verdict", Vertices::Surface, SURFACE),
     entry(Program::Transparent, "transparent.wgsl", "surface_vertex", "transparent", Vertices::Surface, SURFACE),
     entry(Program::Wireframe, "wireframe.wgsl", "wireframe_vertex", "wireframe", Vertices::Edges, &[]),
@@ -118,6 +121,11 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::VolumeBacks, "volume.wgsl", "volume_vertex", "volume_count_backs", Vertices::Volume, &[]),
     entry(Program::Labels, "labels.wgsl", "label_vertex", "label", Vertices::Labels, &[]),
     entry(Program::Texture, "texture.wgsl", "surface_vertex", "texture", Vertices::Surface, SURFACE),
+    entry(Program::StencilOnly, "stencil_only.wgsl", "full_screen_vertex", "stencil_only", Vertices::None, &[]),
+    entry(Program::WideVerdict, "wide.wgsl", "full_screen_vertex", "wide_verdict", Vertices::None, &[]),
+    entry(Program::WideVerdictEach, "wide.wgsl", "full_screen_vertex", "wide_verdict_each", Vertices::None, &[]),
+    entry(Program::WideBit, "wide.wgsl", "full_screen_vertex", "wide_bit", Vertices::None, &[]),
+    entry(Program::WideOverflow, "wide.wgsl", "full_screen_vertex", "wide_overflow", Vertices::None, &[]),
 ];
 
 /// The entry of a program.

@@ -53,6 +53,18 @@ pub struct Targets {
     pub read: wgpu::BindGroup,
     /// For frames of even and of odd number, where a mean is kept.
     pub means: Option<[Mean; 2]>,
+    /// Made by [`Self::with_counts`] for the first plan that counts beyond the stencil.
+    pub counts: Option<Counts>,
+}
+
+/// One number a sample, for counts that the stencil has too few bits for.
+pub struct Counts {
+    /// What volumes are added up in.
+    pub view: wgpu::TextureView,
+    /// The texture, for copies (at one sample).
+    pub texture: wgpu::Texture,
+    /// What the verdict is read by.
+    pub read: wgpu::BindGroup,
 }
 
 /// Bytes that targets may take; llvmpipe overcommits memory until it aborts.
@@ -66,7 +78,8 @@ impl Targets {
     pub fn new(context: &Context, layout: &wgpu::BindGroupLayout, shape: Shape) -> Result<Self, GpuError> {
         let Shape { size, samples, accumulation, gathers } = shape;
         let pixels = u64::from(size[0]) * u64::from(size[1]);
-        let bytes = pixels * (u64::from(samples) * (8 + 8) + 8 + if gathers { 32 } else { 0 });
+        // Colour, depth with stencil, counts should they be needed, and means.
+        let bytes = pixels * (u64::from(samples) * (8 + 8 + 4) + 8 + if gathers { 32 } else { 0 });
         if bytes > BUDGET {
             return Err(GpuError::TooLarge(format!(
                 "{} x {} pixels with {samples} samples need {} MiB of {} MiB",
@@ -116,7 +129,26 @@ impl Targets {
             })
         });
         let read = group(drawn, drawn);
-        Ok(Self { shape, color, resolved, depth_stencil, depth_stencil_texture, read, means })
+        Ok(Self { shape, color, resolved, depth_stencil, depth_stencil_texture, read, means, counts: None })
+    }
+
+    /// Makes the counts' target where it is not there yet; `layouts` are those of one sample and of
+    /// several.
+    pub fn with_counts(&mut self, context: &Context, layouts: &[wgpu::BindGroupLayout; 2]) {
+        if self.counts.is_some() {
+            return;
+        }
+        let one = self.shape.samples == 1;
+        let read = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        let usage = if one { read | wgpu::TextureUsages::COPY_SRC } else { read };
+        let texture = texture(context, "counts", self.shape.size, self.shape.samples, context.counts_format(), usage);
+        let view = texture.create_view(&Default::default());
+        let read = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("counts"),
+            layout: &layouts[usize::from(!one)],
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&view) }],
+        });
+        self.counts = Some(Counts { view, texture, read });
     }
 }
 

@@ -8,9 +8,10 @@ use std::cell::OnceCell;
 
 use glam::{DVec3, DVec4};
 
-use super::Row;
+use super::overflow::{self, Way};
+use super::{Row, wide};
 use crate::frame::plan::View;
-use crate::frame::state::{Cull, Depth, NearPlane, State, Winding};
+use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{
     Action, Capabilities, Cutout, Draw, DrawSet, Look, Method, Part, Program, Reason, Step, Target, VolumePart, VolumePlan,
@@ -21,6 +22,7 @@ use crate::geometry::eye_count::{EyeCount, holding_count};
 use crate::geometry::frustum::NearPyramid;
 use crate::geometry::light_in_object;
 use crate::scene::{AlphaMode, LightKind, Mesh, Node, Pose, PosedLight, Scene};
+use crate::settings::{Overflow, Technique};
 
 /// One caster before one light, as a technique's `decide` sees it.
 pub struct Caster<'a> {
@@ -139,6 +141,25 @@ impl Caster<'_> {
     }
 }
 
+/// Which light is counted, where, and in what.
+#[derive(Debug, Clone, Copy)]
+pub struct Ask<'a> {
+    /// The device.
+    pub capabilities: &'a Capabilities,
+    /// An index into the pose's lights.
+    pub light: usize,
+    /// Pixels.
+    pub scissor: [u32; 4],
+    /// Per pixel.
+    pub samples: u32,
+    /// The bits there are to count in.
+    pub budget: BitBudget,
+    /// What is done where they are too few.
+    pub overflow: Overflow,
+    /// The count itself is shown, not only whether it is zero.
+    pub values: bool,
+}
+
 /// The volumes of one light, decided.
 #[derive(Debug, Default)]
 pub struct LightCount {
@@ -147,24 +168,27 @@ pub struct LightCount {
     pub base: u8,
     /// The counting steps, in order.
     pub steps: Vec<Step>,
+    /// The bits that hold the verdict: all zero where the light shines.
+    pub budget: BitBudget,
+    /// What a user should know of it.
+    pub notes: Vec<String>,
 }
 
-/// Casters of `light` in `view`, each decided by `row`; their plans are appended to `volumes`.
-pub fn count_light(
-    row: &Row,
-    casters: &[Caster<'_>],
-    light: usize,
-    scissor: [u32; 4],
-    budget: BitBudget,
-    volumes: &mut Vec<VolumePlan>,
-) -> LightCount {
+/// Casters of one light in `view`, each decided by `row`; their plans are appended to `volumes`.
+pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &mut Vec<VolumePlan>) -> LightCount {
     let first = volumes.len();
+    let light = ask.light;
+    // Of those that are counted: the caster, and its volume's number.
+    let mut counted = Vec::new();
     for caster in casters {
         let decided = if caster.in_range() { (row.decide)(caster) } else { Some((Method::Dropped, Reason::OutOfRange)) };
         let Some((method, reason)) = decided else { continue };
         let holds_eye = if method == Method::ExactZPass { caster.holds_eye().unwrap_or(0) } else { 0 };
         let cutout = caster.cutout.get().copied();
         let turns = !caster.mesh.topology.report().is_solid();
+        if method != Method::Dropped {
+            counted.push((caster, volumes.len()));
+        }
         volumes.push(VolumePlan {
             instance: caster.instance,
             light,
@@ -179,29 +203,119 @@ pub fn count_light(
             flaw: None,
         });
     }
-    let base = volumes[first..].iter().map(|volume| volume.holds_eye).fold(0u8, |sum, count| {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the count is modulo the field")]
-        sum.wrapping_add(count as u8)
-    }) & budget.count_mask;
+    if counted.is_empty() {
+        return LightCount { budget: ask.budget, ..LightCount::default() };
+    }
 
+    let decision = overflow::decide(row, &counted.iter().map(|(caster, _)| *caster).collect::<Vec<_>>(), ask);
+    let notes = decision.note.into_iter().collect();
+    let (batch_of, batches) = match decision.way {
+        Way::Wide if row.technique != Technique::Wide => {
+            volumes.truncate(first);
+            return LightCount { notes, ..count_light(&wide::ROW, casters, ask, volumes) };
+        }
+        Way::Plain | Way::Wide => (vec![0; counted.len()], 1),
+        Way::Batches(batch_of, batches) => (batch_of, batches),
+    };
+    let budget = if batches > 1 { ask.budget.batched() } else { ask.budget };
+    let mut count = LightCount { base: 0, steps: Vec::new(), budget, notes };
+    for batch in 0..batches {
+        let members: Vec<usize> =
+            counted.iter().zip(&batch_of).filter(|(_, of)| **of == batch).map(|((_, volume), _)| *volume).collect();
+        let base = members.iter().map(|&volume| volumes[volume].holds_eye).fold(0u8, |sum, holds_eye| {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the count is modulo the field")]
+            sum.wrapping_add(holds_eye as u8)
+        }) & budget.count_mask;
+        if batch == 0 {
+            count.base = base;
+        } else {
+            count.steps.extend(between_batches(batch, base, budget, ask));
+        }
+        count.steps.extend(steps(row, &members, volumes, budget, ask));
+    }
+    if row.technique == Technique::Wide {
+        count.steps.insert(0, wide::begin(light));
+        count.steps.extend(wide::finish(ask));
+    }
+    count
+}
+
+/// The counting steps of some volumes, by their numbers.
+fn steps(row: &Row, members: &[usize], volumes: &[VolumePlan], budget: BitBudget, ask: &Ask<'_>) -> Vec<Step> {
     let mut steps = Vec::new();
     for group in row.groups.iter().copied().flatten() {
         for winding in [Winding::Ccw, Winding::Cw] {
-            let parts: Vec<_> = volumes
+            let parts: Vec<_> = members
                 .iter()
-                .enumerate()
-                .skip(first)
+                .map(|&index| (index, &volumes[index]))
                 .filter(|(_, volume)| volume.method == group.method && volume.winding == winding)
                 .flat_map(|(index, volume)| group.parts.iter().map(move |&part| (volume, VolumePart { volume: index, part })))
                 .filter(|(volume, part)| volume.turns || part.part != Part::LightCapTurned)
                 .map(|(_, part)| part)
                 .collect();
             if !parts.is_empty() {
-                steps.push(group.step(light, winding, scissor, budget, parts));
+                steps.push(group.step(ask.light, winding, ask.scissor, budget, parts));
             }
         }
     }
-    LightCount { base, steps }
+    steps
+}
+
+/// What a batch leaves becomes one bit, and the field starts anew.
+fn between_batches(batch: usize, base: u8, budget: BitBudget, ask: &Ask<'_>) -> Vec<Step> {
+    let collapse = full_screen(
+        format!("light {}: collapse batch {batch}", ask.light),
+        "A count that is not zero sets the verdict bit and becomes zero: the field is free for the next batch.",
+        Program::StencilOnly,
+        StencilState::collapse(budget),
+        budget.verdict_mask,
+        ask,
+    );
+    let start = (base != 0).then(|| {
+        full_screen(
+            format!("light {}: start batch {} at {base}", ask.light, batch + 1),
+            "So many of this batch's volumes hold the eye, where counting starts.",
+            Program::StencilOnly,
+            StencilState::set_count(budget),
+            base,
+            ask,
+        )
+    });
+    [collapse].into_iter().chain(start).collect()
+}
+
+/// A step over all of the light's pixels that changes the stencil only.
+pub(super) fn full_screen(
+    label: String,
+    why: &str,
+    program: Program,
+    stencil: StencilState,
+    reference: u8,
+    ask: &Ask<'_>,
+) -> Step {
+    Step {
+        label,
+        why: why.into(),
+        view: 0,
+        action: Action::Draw(Box::new(Draw {
+            program,
+            look: Look::default(),
+            target: Target::Scene,
+            state: State {
+                depth: Depth::IGNORE,
+                stencil,
+                color: None,
+                cull: Cull::None,
+                winding: Winding::Ccw,
+                near_plane: NearPlane::Clip,
+            },
+            stencil_reference: reference,
+            scissor: ask.scissor,
+            light: Some(ask.light),
+            constant: [0.0; 4],
+            set: DrawSet::FullScreen,
+        })),
+    }
 }
 
 /// Parts of volumes that are counted by the same state: one step for each winding.
@@ -225,6 +339,12 @@ pub struct Group {
     pub cull: Cull,
     /// What happens before the near plane.
     pub near_plane: NearPlane,
+    /// How colour is combined, for counting by colour.
+    pub color: Option<Blend>,
+    /// Where it is counted.
+    pub target: Target,
+    /// What the program counts with, where it asks.
+    pub constant: [f32; 4],
 }
 
 impl Group {
@@ -240,6 +360,9 @@ impl Group {
         depth: Depth::NEARER,
         cull: Cull::None,
         near_plane: NearPlane::Clip,
+        color: None,
+        target: Target::Scene,
+        constant: [0.0; 4],
     };
 
     fn step(&self, light: usize, winding: Winding, scissor: [u32; 4], budget: BitBudget, parts: Vec<VolumePart>) -> Step {
@@ -256,11 +379,11 @@ impl Group {
             action: Action::Draw(Box::new(Draw {
                 program: self.program,
                 look: Look::default(),
-                target: Target::Scene,
+                target: self.target,
                 state: State {
                     depth: self.depth,
                     stencil: (self.stencil)(budget),
-                    color: None,
+                    color: self.color,
                     cull: self.cull,
                     winding,
                     near_plane: self.near_plane,
@@ -268,7 +391,7 @@ impl Group {
                 stencil_reference: 0,
                 scissor,
                 light: Some(light),
-                constant: [0.0; 4],
+                constant: self.constant,
                 set: DrawSet::Volumes(parts),
             })),
         }

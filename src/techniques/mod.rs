@@ -15,10 +15,12 @@ mod flattened;
 pub mod labels;
 mod none;
 mod one_sided;
+mod overflow;
 mod parity;
 mod per_polygon;
 pub mod show;
 pub mod surfaces;
+pub mod wide;
 mod z_fail;
 mod z_pass;
 
@@ -27,6 +29,7 @@ use crate::geometry::Outline;
 use crate::settings::Technique;
 
 pub use counting::{Caster, Group};
+pub use overflow::TOO_MANY;
 
 /// One technique, for people and for the director.
 pub struct Row {
@@ -55,6 +58,7 @@ pub static TABLE: &[Row] = &[
     z_pass::ROW,
     z_fail::ROW,
     exact_z_pass::ROW,
+    wide::ROW,
     one_sided::ROW,
     per_polygon::ROW,
     parity::ROW,

@@ -39,7 +39,7 @@ fn sizes(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
         ui.add(slider(&mut lighting.area_samples, 1..=MAX_AREA_SAMPLES))
     });
     lighting.light_sample = lighting.light_sample.min(lighting.area_samples - 1);
-    let of_one_light = matches!(desk.settings.show, Show::Stencil | Show::Shadow | Show::Volumes);
+    let of_one_light = matches!(desk.settings.show, Show::Stencil | Show::Shadow | Show::Overflow | Show::Volumes);
     let looked_at = posed.get(desk.settings.light).is_some_and(|light| !light.extent.is_point());
     if of_one_light && looked_at && lighting.area_samples > 1 {
         let last = lighting.area_samples - 1;

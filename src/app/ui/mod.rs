@@ -7,6 +7,7 @@
 
 mod camera;
 mod commands;
+mod counting;
 mod failures;
 mod gather;
 mod gizmo;
@@ -221,6 +222,7 @@ impl Panel {
         style::section_unfolded(ui, "Scene", true, self.focus_path, |ui| scene::scene(ui, self, desk, view, actions));
         style::section(ui, "Frame", true, |ui| numbers::numbers(ui, desk, view));
         style::section(ui, "Technique", true, |ui| technique::techniques(ui, desk));
+        style::section(ui, "Count", false, |ui| counting::counting(ui, desk, view));
         style::section(ui, "Show", true, |ui| technique::show(ui, desk, view));
         style::section(ui, "Failures", false, |ui| failures::failures(ui, self, desk, actions));
         style::section(ui, "Proof", true, |ui| verify::verify(ui, desk, view, actions));

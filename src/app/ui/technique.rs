@@ -43,7 +43,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
     });
     explain(ui, format!("{}.", capital(desk.settings.show.about())));
     let lights = view.scene.map_or(&[][..], |scene| &scene.lights);
-    let of_one_light = matches!(desk.settings.show, Show::Stencil | Show::Shadow | Show::Volumes);
+    let of_one_light = matches!(desk.settings.show, Show::Stencil | Show::Shadow | Show::Overflow | Show::Volumes);
     ui.add_enabled_ui(of_one_light && !lights.is_empty(), |ui| {
         field(ui, "Light", "The light whose stencil count, shadow or volumes are shown", |ui| {
             let name =

@@ -1,0 +1,174 @@
+//! Never wrong by overflow: how often a light's volumes can lie over one pixel, and what is done where
+//! that is more than the stencil's field can tell apart.
+//!
+//! A count is right modulo the field's size, so it is wrong in one case only: a multiple of that size
+//! reads as zero, and shadow is taken for light. The plan bounds the count ([`crate::geometry::overlap`]):
+//! for each caster, then for casters whose volumes can overlap at all. Where the bound fits the field,
+//! as it nearly always does, nothing changes. Where it does not, exact techniques stay exact:
+//!
+//! - **in batches**, each of which fits a field one bit shorter; between two batches one full-screen step
+//!   turns every count that is not zero into the verdict bit ([`StencilState::collapse`]);
+//! - **wide** ([`super::wide`]), where one caster alone could overflow a batch, or where the count itself
+//!   is to be shown.
+//!
+//! [`StencilState::collapse`]: crate::frame::stencil::StencilState::collapse
+
+use glam::Vec3;
+
+use super::counting::Ask;
+use super::{Caster, Row};
+use crate::geometry::overlap::{Cone, Heap, OverlapScratch};
+use crate::geometry::{self, Planes, light_in_object};
+use crate::settings::{Overflow, Technique};
+
+/// What every note on a count that could overflow holds.
+pub const TOO_MANY: &str = "volumes over one pixel";
+
+/// How a light's volumes are counted, so that the count fits.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Way {
+    /// All at once.
+    Plain,
+    /// One after the other: of each caster, in which batch; and how many there are.
+    Batches(Vec<usize>, usize),
+    /// In a float target.
+    Wide,
+}
+
+/// The way, and what a user should know of it.
+#[derive(Debug)]
+pub(super) struct Decision {
+    pub way: Way,
+    pub note: Option<String>,
+}
+
+/// More casters than this are not looked at pair by pair.
+const MANY: usize = 4096;
+
+/// Decides for the `casters` of one light that are counted at all.
+pub(super) fn decide(row: &Row, casters: &[&Caster<'_>], ask: &Ask) -> Decision {
+    let largest = ask.budget.largest();
+    if row.technique == Technique::Wide {
+        return Decision { way: Way::Wide, note: None };
+    }
+    if row.technique == Technique::Parity {
+        // It does not count.
+        return Decision { way: Way::Plain, note: None };
+    }
+    let mut bounds: Vec<u32> = casters.iter().map(|caster| trivial_bound(caster)).collect();
+    let sum = |bounds: &[u32]| bounds.iter().map(|bound| u64::from(*bound)).sum::<u64>();
+    let plain = Decision { way: Way::Plain, note: None };
+    if sum(&bounds) <= largest.into() {
+        return plain;
+    }
+    let mut scratch = Scratch::default();
+    for (bound, caster) in bounds.iter_mut().zip(casters) {
+        if *bound > 1 {
+            *bound = scratch.bound(caster, largest);
+        }
+    }
+    if sum(&bounds) <= largest.into() {
+        return plain;
+    }
+    let cones: Vec<Cone> = casters.iter().map(|caster| cone(caster, casters.len() > MANY)).collect();
+    let together = |bounds: &[u32]| {
+        let mut all = Heap::default();
+        for (cone, bound) in cones.iter().zip(bounds) {
+            all.try_add(*cone, *bound, u64::MAX);
+        }
+        all.most()
+    };
+    let mut most = together(&bounds);
+    if most > largest.into() {
+        // Worth more time.
+        for (bound, caster) in bounds.iter_mut().zip(casters) {
+            if *bound > 1 {
+                *bound = scratch.bound(caster, 1);
+            }
+        }
+        most = together(&bounds);
+    }
+    if most <= largest.into() {
+        return plain;
+    }
+
+    let number = casters.first().map_or(ask.light, |caster| caster.light.of);
+    let bits = ask.budget.count_mask.count_ones();
+    let too_many = format!("light {number}: up to {most} {TOO_MANY}, the count of {bits} bits tells {largest}");
+    if ask.overflow == Overflow::Naive || !row.exact {
+        let note = format!("{too_many}: a multiple of {} is taken for none (`show overflow` marks where)", largest + 1);
+        return Decision { way: Way::Plain, note: Some(note) };
+    }
+    let batch = ask.budget.batched().largest();
+    let alone = bounds.iter().max().copied().unwrap_or(0);
+    let by_wide = ask.samples == 1 || ask.capabilities.wide_four_samples;
+    if alone <= batch && !(ask.values && by_wide) {
+        let (batch_of, batches) = in_batches(&cones, &bounds, batch.into());
+        let note = format!("{too_many}: counted in {batches} batches of at most {batch}, each collapsed into one bit");
+        return Decision { way: Way::Batches(batch_of, batches), note: Some(note) };
+    }
+    if by_wide {
+        let why = if ask.values { "its count is shown".to_owned() } else { format!("one caster alone has up to {alone}") };
+        let format = ask.capabilities.wide_counts.name();
+        return Decision { way: Way::Wide, note: Some(format!("{too_many}, and {why}: counted wide, in {format}")) };
+    }
+    let note = format!("{too_many}, and this device counts wide with 1 sample a pixel only: shadows may be taken for light");
+    Decision { way: Way::Plain, note: Some(note) }
+}
+
+/// Casters into as few batches as come by first fit.
+fn in_batches(cones: &[Cone], bounds: &[u32], largest: u64) -> (Vec<usize>, usize) {
+    let mut batches: Vec<Heap> = Vec::new();
+    let batch_of = cones
+        .iter()
+        .zip(bounds)
+        .map(|(cone, bound)| {
+            let found = batches.iter_mut().position(|batch| batch.try_add(*cone, *bound, largest));
+            found.unwrap_or_else(|| {
+                let mut batch = Heap::default();
+                batch.try_add(*cone, *bound, largest);
+                batches.push(batch);
+                batches.len() - 1
+            })
+        })
+        .collect();
+    (batch_of, batches.len())
+}
+
+/// Known without looking at the light: one for a convex solid, else as many as there are triangles.
+fn trivial_bound(caster: &Caster<'_>) -> u32 {
+    let topology = &caster.mesh.topology;
+    if topology.convex() && caster.pose.deformed[caster.node_index].is_none() {
+        return 1;
+    }
+    u32::try_from(topology.triangles().len()).unwrap_or(u32::MAX)
+}
+
+/// What its volume may lie in, as the light sees it.
+fn cone(caster: &Caster<'_>, everywhere: bool) -> Cone {
+    let light = glam::DVec4::from(caster.light);
+    if everywhere {
+        return Cone::EVERYWHERE;
+    }
+    Cone::about(&caster.pose.world_bounds(caster.scene, caster.node_index), light)
+}
+
+/// Memory that bounds are found in.
+#[derive(Default)]
+struct Scratch {
+    welded: Vec<Vec3>,
+    planes: Planes,
+    overlap: OverlapScratch,
+}
+
+impl Scratch {
+    fn bound(&mut self, caster: &Caster<'_>, enough: u32) -> u32 {
+        let topology = &caster.mesh.topology;
+        topology.weld().gather(caster.pose.positions(caster.scene, caster.node_index), &mut self.welded);
+        self.planes.build(topology, &self.welded);
+        let bounds = caster.pose.bounds(caster.scene, caster.node_index);
+        let posed = geometry::Caster { topology, welded: &self.welded, planes: &self.planes, bounds: &bounds };
+        let light = light_in_object(&caster.pose.world_from_object[caster.node_index], caster.light).as_vec4();
+        self.overlap.winding_bound(posed, light, enough)
+    }
+}
