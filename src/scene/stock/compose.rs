@@ -12,8 +12,8 @@ use glam::{DMat3, DQuat, DVec3, Vec3, Vec4};
 use crate::frame::camera::DEFAULT_NEAR;
 use crate::scene::gltf::{ImportError, load_embedded};
 use crate::scene::{
-    Animation, AnimationChoice, Camera, Channel, Environment, Interpolation, Light, LightKind, Material, Mesh, MeshParts, Node,
-    Primitive, Property, Scene, Transform,
+    Animation, AnimationChoice, BuiltInSlide, Camera, Channel, Environment, Extent, Interpolation, Light, LightKind, Material,
+    Mesh, MeshParts, Node, Primitive, Property, Scene, Transform,
 };
 
 macro_rules! model {
@@ -323,6 +323,22 @@ impl Composer {
     pub(super) fn light(&mut self, node: usize, kind: LightKind, color: [f32; 3], intensity: f32, range: f32) {
         let name = self.scene.nodes[node].name.clone();
         self.scene.lights.push(Light { name, node, kind, color: color.into(), intensity, range, ..Light::default() });
+    }
+
+    /// The last light has a size.
+    pub(super) fn sized_light(&mut self, extent: Extent) {
+        if let Some(light) = self.scene.lights.last_mut() {
+            light.extent = extent;
+        }
+    }
+
+    /// The last light, a spot, projects a slide.
+    pub(super) fn projects(&mut self, slide: BuiltInSlide) {
+        let texture = self.scene.textures.len();
+        if let Some(light) = self.scene.lights.last_mut() {
+            light.slide = Some(texture);
+            self.scene.textures.push(slide.texture().clone());
+        }
     }
 
     /// A light that shines everywhere, standing still.

@@ -8,6 +8,7 @@ mod demonstrations;
 mod eye_in_shadow;
 mod grid;
 mod hello2rts;
+mod projector;
 mod shadowfun;
 mod stairs;
 mod teapots;
@@ -53,6 +54,11 @@ pub static TABLE: &[StockScene] = &[
         name: "eye-in-shadow",
         about: "the camera stands in the shadow of a great disc and looks to the light: plain z-pass fails here",
         build: eye_in_shadow::build,
+    },
+    StockScene {
+        name: "projector",
+        about: "a slide projector throws a rose window past a turning sculpture; a globe of a lamp throws soft shadows (Kilgard 1999, figure 15)",
+        build: projector::build,
     },
     StockScene {
         name: "cathedral",

@@ -57,7 +57,7 @@ fn names_are_unique_and_known() {
     let names: Vec<_> = TABLE.iter().map(|stock| stock.name).collect();
     assert_eq!(
         names,
-        ["courtyard", "cubes", "teapots", "grid", "eye-in-shadow", "cathedral", "stairs", "shadowfun", "hello2rts"]
+        ["courtyard", "cubes", "teapots", "grid", "eye-in-shadow", "projector", "cathedral", "stairs", "shadowfun", "hello2rts"]
     );
     assert!(super::build("courtyard").is_some() && super::build("nowhere").is_none());
 }
