@@ -9,6 +9,12 @@ fn volume_vertex_mismatched(@location(0) vertex: vec4f, @builtin(instance_index)
     return VolumePoint(frame.clip_from_world * world);
 }
 
+// ZP+: a light cap as the light sees it through the near rectangle.
+@vertex
+fn near_plane_vertex(@location(0) vertex: vec4f, @builtin(instance_index) volume: u32) -> VolumePoint {
+    return VolumePoint(volumes[volume].thrown * vec4f(vertex.xyz, 1.0));
+}
+
 // Counting: the stencil is all that changes.
 @fragment
 fn volume_count() {

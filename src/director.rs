@@ -21,6 +21,7 @@ use crate::scene::area::sequence;
 use crate::scene::pose::pose;
 use crate::scene::{Pose, Sampling, Scene};
 use crate::settings::{Accumulation, MAX_FRAMES, Settings, Show, Technique, Texturing};
+use crate::techniques::counting::LightCount;
 use crate::techniques::{self, Caster, counting, labels, show, surfaces, wide};
 
 /// Why a frame cannot be planned: one line each.
@@ -166,14 +167,16 @@ pub fn plan(
             frame.push(show::copy(whole));
         }
         Show::Final | Show::Volumes | Show::Wireframe => {
+            let darkens = techniques::row(settings.technique).darkens;
             let mut lights = Vec::new();
             for light in (0..pose.lights.len()).filter(|&light| pose.lights[light].on) {
                 if let Some(scissor) = frame.light_rect(light) {
-                    lights.push((light, scissor, frame.count(light)));
+                    let count = if darkens.is_none() { frame.count(light) } else { LightCount::default() };
+                    lights.push((light, scissor, count));
                 }
             }
             let transparent = surfaces::transparent(scene, pose, &frame.plan.views[0], whole);
-            if lights.len() <= 1 && transparent.is_empty() && frame.may_draw_directly() {
+            if lights.len() <= 1 && darkens.is_none() && transparent.is_empty() && frame.may_draw_directly() {
                 let only = lights.pop().map(|(light, _, count)| (light, count));
                 frame.draw_directly(only, &groups);
                 frame.label(Target::Direct);
@@ -183,14 +186,15 @@ pub fn plan(
             frame.clear_all([0.0; 4], stored);
             frame.extend(surfaces::ambient(&groups, whole));
             let mut counted = false;
-            for (light, scissor, count) in lights {
+            for (light, scissor, count) in &mut lights {
+                let (light, scissor) = (*light, *scissor);
                 if counted || count.base != stored {
                     frame.reset_stencil(light, count.base);
                     stored = count.base;
                 }
                 counted = !count.steps.is_empty();
                 let unshadowed = count.steps.is_empty() && count.base == 0;
-                frame.extend(count.steps);
+                frame.extend(std::mem::take(&mut count.steps));
                 let stencil = if unshadowed { StencilState::IGNORE } else { StencilState::count_equals(count.budget) };
                 frame.extend(surfaces::lit(
                     &groups,
@@ -202,6 +206,11 @@ pub fn plan(
                 ));
             }
             frame.extend(surfaces::textures(&groups, whole));
+            if let Some(color) = darkens {
+                for (light, scissor, _) in lights {
+                    frame.darken(light, color, scissor);
+                }
+            }
             frame.extend(transparent);
             match settings.show {
                 Show::Volumes => {
@@ -331,18 +340,50 @@ impl<'a> Frame<'a> {
     }
 
     /// How the chosen technique counts this light's volumes.
-    fn count(&mut self, light: usize) -> counting::LightCount {
+    fn count(&mut self, light: usize) -> LightCount {
         self.count_by(techniques::row(self.settings.technique), light)
     }
 
-    fn count_by(&mut self, row: &techniques::Row, light: usize) -> counting::LightCount {
+    fn count_by(&mut self, row: &techniques::Row, light: usize) -> LightCount {
+        let mut volumes = std::mem::take(&mut self.plan.volumes);
+        let count = self
+            .casters(light)
+            .map(|(casters, scissor)| counting::count_light(row, &casters, &self.ask(light, scissor), &mut volumes));
+        self.plan.volumes = volumes;
+        let Some(count) = count else { return LightCount { budget: self.plan.budget, ..LightCount::default() } };
+        // The points of one light have much the same to say.
+        let about = format!("light {}: ", self.pose.lights[light].of);
+        if !self.plan.notes.iter().any(|note| note.starts_with(&about)) {
+            self.plan.notes.extend(count.notes.iter().cloned());
+        }
+        count
+    }
+
+    /// Counts one caster after the other, and darkens what is already lit where one counts.
+    fn darken(&mut self, light: usize, color: [f32; 4], lit: [u32; 4]) {
+        let row = techniques::row(self.settings.technique);
+        let mut volumes = std::mem::take(&mut self.plan.volumes);
+        let mut steps = Vec::new();
+        if let Some((casters, scissor)) = self.casters(light) {
+            for caster in casters.chunks(1) {
+                let count = counting::count_light(row, caster, &self.ask(light, scissor), &mut volumes);
+                if !count.steps.is_empty() {
+                    steps.extend(count.steps);
+                    steps.push(show::dark(light, color, self.plan.budget, lit));
+                }
+            }
+        }
+        self.plan.volumes = volumes;
+        self.extend(steps);
+    }
+
+    /// What casts shadows before a light, and the pixels it is counted in; `None` where nothing is.
+    fn casters(&self, light: usize) -> Option<(Vec<Caster<'_>>, [u32; 4])> {
         let posed = &self.pose.lights[light];
         // The stencil is shown everywhere, so it is counted everywhere; light is added in range only.
         let everywhere = matches!(self.settings.show, Show::Stencil | Show::Overflow);
         let rect = if everywhere { Some(self.whole()) } else { self.light_rect(light) };
-        let Some(scissor) = rect.filter(|_| posed.shadows) else {
-            return counting::LightCount { budget: self.plan.budget, ..counting::LightCount::default() };
-        };
+        let scissor = rect.filter(|_| posed.shadows)?;
         let view = &self.plan.views[0];
         let casters: Vec<_> = self
             .scene
@@ -366,13 +407,7 @@ impl<'a> Frame<'a> {
                 cutout: OnceCell::new(),
             })
             .collect();
-        let count = counting::count_light(row, &casters, &self.ask(light, scissor), &mut self.plan.volumes);
-        // The points of one light have much the same to say.
-        let about = format!("light {}: ", posed.of);
-        if !self.plan.notes.iter().any(|note| note.starts_with(&about)) {
-            self.plan.notes.extend(count.notes.iter().cloned());
-        }
-        count
+        Some((casters, scissor))
     }
 
     fn ask(&self, light: usize, scissor: [u32; 4]) -> counting::Ask<'a> {

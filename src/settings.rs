@@ -220,10 +220,14 @@ named! {
         ExactZPass = "exact-z-pass",
         /// Z-fail in a float target.
         Wide = "wide",
+        /// Z-pass whose near plane is counted first.
+        ZPlus = "zp-plus",
         /// Z-fail in two passes, of one face each.
         OneSided = "one-sided",
         /// Z-fail with a volume for each polygon.
         PerPolygon = "per-polygon",
+        /// Beam's tutorial: finite volumes of each polygon, and a dark quad.
+        Beam = "beam",
         /// Inverts one bit.
         Parity = "parity",
         /// Kilgard's planar cut-outs: flat casters by their outline and one matrix.

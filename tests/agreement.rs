@@ -1,5 +1,5 @@
 //! Z-fail and exact z-pass agree in every stencil value, on 200 random views of the stock scenes; so do
-//! one-sided and per-polygon counting, on every fourth of them.
+//! one-sided and per-polygon counting, on every fourth of them. ZP+ may crack, and how much is counted.
 //!
 //! Eye and light are thrown through and around each scene by a fixed seed: also into shadows, into
 //! casters, and with casters across the near plane.
@@ -42,6 +42,7 @@ fn z_fail_and_exact_z_pass_hold_the_same_stencil_on_200_random_views() {
     let mut views = 0;
     let mut met: BTreeMap<Method, usize> = BTreeMap::new();
     let (mut in_shadow, mut z_pass_wrong, mut compared, mut same) = (0, 0, 0, 0);
+    let mut cracked = Vec::new();
     for row in stock::TABLE {
         let scene = stock::build(row.name).unwrap().unwrap();
         stage.set_scene(&scene);
@@ -128,6 +129,14 @@ fn z_fail_and_exact_z_pass_hold_the_same_stencil_on_200_random_views() {
                     same += usize::from(plan.volumes.iter().any(|volume| volume.method != Method::Dropped));
                 }
             }
+            if view % 2 == 0 {
+                let plan = stage.shoot(&Settings { technique: Technique::ZPlus, ..settings.clone() }, &scene).plan;
+                let found = stage.stencil();
+                let wrong = (0..found.len()).filter(|&i| surface[i] && found[i] != by_z_fail[i]).count();
+                let over = plan.volumes.iter().any(|volume| matches!(volume.method, Method::ZPlus | Method::ZPlusMirrored));
+                assert!(wrong == 0 || over, "without a near plane's count there is nothing to crack");
+                cracked.push((over, wrong));
+            }
             in_shadow += usize::from(plan.volumes.iter().any(|volume| volume.holds_eye != 0));
             z_pass_wrong += usize::from((0..by_z_fail.len()).any(|i| surface[i] && by_z_pass[i] != by_z_fail[i]));
             compared += surface.iter().filter(|there| **there).count();
@@ -143,6 +152,16 @@ fn z_fail_and_exact_z_pass_hold_the_same_stencil_on_200_random_views() {
     assert!(views >= 200);
     // The views must have met what is hard, or their agreement says little.
     assert!(in_shadow >= 20 && z_pass_wrong >= 20, "too few eyes in shadow");
+    // ZP+ cracks: single pixels along the near plane's cut, not areas.
+    let cracks: usize = cracked.iter().map(|(_, wrong)| wrong).sum();
+    let over = cracked.iter().filter(|(over, _)| *over).count();
+    let most = cracked.iter().map(|(_, wrong)| *wrong).max().unwrap();
+    let with = cracked.iter().filter(|(_, wrong)| *wrong > 0).count();
+    println!(
+        "ZP+: {cracks} cracks in {with} of {} views, {over} with a shadow near the near plane; at most {most}",
+        cracked.len()
+    );
+    assert!(over >= 40 && cracks <= 10, "{over} views with a shadow near the near plane, {cracks} cracks");
     assert!(same >= 100, "one-sided and per-polygon counting met volumes in {same} views only");
     assert!(met.get(&Method::ExactZPass).is_some_and(|count| *count > 500), "{met:?}");
     assert!(met.get(&Method::ZFailCompared).is_some_and(|count| *count > 50), "{met:?}");

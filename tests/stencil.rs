@@ -299,3 +299,86 @@ fn a_far_plane_takes_the_shadows_of_z_fail_and_leaves_those_of_z_pass() {
         assert_exact(&scene, &Settings { far: Some(15.0), ..settings.clone() }, technique);
     }
 }
+
+/// How many decided pixels are wrong, of how many.
+fn wrong(scene: &Scene, settings: &Settings, technique: Technique) -> (usize, usize) {
+    let pixels = decided(scene, settings, technique);
+    (pixels.iter().filter(|(found, count)| found != count).count(), pixels.len())
+}
+
+/// How each caster is counted.
+fn methods(scene: &Scene, settings: &Settings, technique: Technique) -> Vec<(Method, Reason)> {
+    let mut stage = Stage::new();
+    stage.set_scene(scene);
+    measure(&mut stage, scene, settings, technique).2
+}
+
+#[test]
+fn zp_plus_counts_the_near_plane_first() {
+    let (scene, settings) = eye_in_shadow(3);
+    assert_eq!(assert_exact(&scene, &settings, Technique::ZPlus).0, 3);
+    let methods = methods(&scene, &settings, Technique::ZPlus);
+    assert!(methods.iter().all(|&method| method == (Method::ZPlus, Reason::OverNearRectangle)), "{methods:?}");
+}
+
+#[test]
+fn zp_plus_with_a_light_before_the_eye() {
+    // The light shines towards the eye, past a cube whose shadow's border crosses the near rectangle.
+    let mut build = cubes_over_floor(&[(0.0, 1.2, 0.0), (3.0, 1.2, -1.0)], 0.7);
+    build.point_light(DVec3::new(0.3, 1.9, -4.0));
+    let scene = build.0;
+    let settings = seen_from(DVec3::new(1.26, 0.65, 4.0), DVec3::new(1.2, 0.5, -4.0), SIZE);
+    let methods = methods(&scene, &settings, Technique::ZPlus);
+    assert_eq!(methods[0], (Method::ZPlusMirrored, Reason::OverNearRectangle));
+    assert_eq!(methods[1], (Method::ZPass, Reason::NearRectangleClear));
+    let (z_pass_wrong, of) = wrong(&scene, &settings, Technique::ZPass);
+    let (cracks, _) = wrong(&scene, &settings, Technique::ZPlus);
+    println!("{cracks} cracks, z-pass wrong in {z_pass_wrong} of {of}");
+    assert!(z_pass_wrong > 1000 && of - z_pass_wrong > 1000, "the shadow's border crosses the near rectangle");
+    assert!(cracks <= 5, "{cracks}");
+}
+
+#[test]
+fn a_light_on_the_near_plane_sees_nothing_through_it_and_zp_plus_goes_by_z_fail() {
+    let mut build = cubes_over_floor(&[(0.0, 3.0, -2.0)], 1.0);
+    build.point_light(DVec3::new(2.0, 7.0, 5.9));
+    let scene = build.0;
+    let settings = seen_from(DVec3::new(0.0, 1.0, 6.0), DVec3::new(0.0, 1.0, 0.0), SIZE);
+    let (_, methods) = assert_exact(&scene, &settings, Technique::ZPlus);
+    assert_eq!(methods[0], (Method::ZFail, Reason::LightOnNearPlane));
+}
+
+#[test]
+fn zp_plus_with_directional_and_spot_lights() {
+    for kind in [LightKind::Directional, LightKind::Point] {
+        let mut build = cubes_over_floor(&[(-2.0, 1.5, 0.0), (1.0, 2.0, -1.0), (1.4, 4.2, -1.3)], 0.7);
+        build.light(kind, DVec3::new(3.0, 9.0, 2.0), DVec3::new(-0.3, -1.0, -0.2), 100.0);
+        let scene = build.0;
+        let outside = seen_from(DVec3::new(4.0, 5.0, 9.0), DVec3::new(0.0, 1.0, 0.0), SIZE);
+        assert_exact(&scene, &outside, Technique::ZPlus);
+        let inside = seen_from(DVec3::new(1.0 - 0.12, 0.5, -1.0 - 0.1), DVec3::new(-3.0, 0.4, 1.0), SIZE);
+        assert_exact(&scene, &inside, Technique::ZPlus);
+        let by_light = methods(&scene, &inside, Technique::ZPlus);
+        assert!(by_light.iter().any(|(method, _)| matches!(method, Method::ZPlus | Method::ZPlusMirrored)), "{by_light:?}");
+    }
+}
+
+#[test]
+fn beams_shadows_end_fifty_metres_from_the_light() {
+    // The light at 12 m is within reach of the floor; in the same scene six times as large it is not.
+    let place = |scale: f64| {
+        let mut build = Build::new();
+        build.floor(0.0, 30.0 * scale);
+        let cube = build.mesh(cube(0));
+        build.place(cube, DVec3::new(1.0, 2.0, -1.0) * scale, DVec3::splat(0.7 * scale));
+        build.point_light(DVec3::new(1.0, 12.0, 0.5) * scale);
+        (build.0, seen_from(DVec3::new(4.0, 5.0, 9.0) * scale, DVec3::new(0.0, 1.0, 0.0), SIZE))
+    };
+    let (scene, settings) = place(1.0);
+    assert_eq!(wrong(&scene, &settings, Technique::Beam).0, 0);
+    let (scene, settings) = place(6.0);
+    let pixels = decided(&scene, &settings, Technique::Beam);
+    let shadowed = pixels.iter().filter(|(_, count)| *count > 0).count();
+    let lost = pixels.iter().filter(|(found, count)| *count > 0 && *found == 0).count();
+    assert!(shadowed > 100 && lost * 2 > shadowed, "{lost} of {shadowed} lost");
+}

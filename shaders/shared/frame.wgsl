@@ -45,11 +45,12 @@ struct Light {
 struct Volume {
     light_in_object: vec4f,     // w = 1: a point; w = 0: the direction to a directional light
     end_in_object: vec4f,       // the plane the volume ends on; (0, 0, 0, -1) at infinity
-    thrown: mat4x4f,            // cut-outs: takes (x y z 1) of a far vertex to where it is thrown
+    thrown: mat4x4f,            // cut-outs: takes (x y z 1) of a far vertex to where it is thrown;
+                                // ZP+: to clip space, as the light sees it through the near rectangle
     object: u32,
     by_matrix: u32,             // 1: a cut-out, thrown by the matrix
+    extrusion: f32,             // metres from the light to the far end; 0: on the plane
     _pad0: u32,
-    _pad1: u32,
 }
 
 // One step. The light is a copy in uniform memory: every pixel reads it, and uniform reads are

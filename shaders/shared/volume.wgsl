@@ -21,6 +21,11 @@ fn volume_in_object(vertex: vec4f, volume: u32) -> vec4f {
     if volumes[volume].by_matrix == 1u {
         thrown = volumes[volume].thrown * vec4f(vertex.xyz, 1.0);
     }
+    if volumes[volume].extrusion > 0.0 {
+        // So many metres from the light, or from where it is for a directional light (B).
+        let metres = length((objects[volumes[volume].object].world_from_object * vec4f(way, 0.0)).xyz);
+        thrown = vec4f(select(vertex.xyz, light.xyz, light.w == 1.0) + way * (volumes[volume].extrusion / metres), 1.0);
+    }
     return select(thrown, vec4f(vertex.xyz, 1.0), vertex.w == 1.0);
 }
 

@@ -1,8 +1,9 @@
 //! The eye: where it is, what it sees, and the one projection everything shares.
 
-use glam::{DMat4, DVec2, DVec3};
+use glam::{DMat4, DVec2, DVec3, DVec4};
 use thiserror::Error;
 
+use crate::geometry::near_rectangle::{ThroughLight, through_light};
 use crate::scene::{Pose, Scene};
 use crate::settings::{CameraChoice, Settings};
 
@@ -181,6 +182,18 @@ impl Camera {
         let (up, right) = (self.up * half_height, self.forward.cross(self.up) * (half_height * self.aspect));
         let center = self.eye + self.forward * self.near - right * self.shift.x - up * self.shift.y;
         [center - right - up, center + right - up, center + right + up, center - right + up]
+    }
+
+    /// The near plane in world space: unit normal towards the eye, and offset.
+    #[must_use]
+    pub fn near_plane(&self) -> DVec4 {
+        (-self.forward).extend(self.forward.dot(self.eye) + self.near)
+    }
+
+    /// What a light sees through the near rectangle; `None` where it stands on its plane.
+    #[must_use]
+    pub fn through_light(&self, light: impl Into<DVec4>) -> Option<ThroughLight> {
+        through_light(light.into(), self.near_plane(), self.near, &self.clip_from_world())
     }
 
     /// What every vertex shader's matrices are made from.

@@ -90,6 +90,8 @@ pub struct VolumePlan {
     pub holds_eye: i32,
     /// What has sides: the caster's silhouette, or each of its polygons.
     pub outline: Outline,
+    /// Metres from the light to its far end, where that is no plane: Beam's finite volumes.
+    pub extrusion: Option<f64>,
     /// The plane it ends on, world space, outward normal and offset; none where it goes to infinity.
     pub end: Option<DVec4>,
     /// What its volume is thrown from, where that is not the caster's own silhouette.
@@ -130,6 +132,10 @@ pub enum CutoutShape {
 pub enum Method {
     /// Sides, clipped at the near plane.
     ZPass,
+    /// Sides, clipped at the near plane, whose count is drawn first, seen from the light.
+    ZPlus,
+    /// The same, for a light on the far side of the near plane.
+    ZPlusMirrored,
     /// Sides under depth clamp, from the eye's own count.
     ExactZPass,
     /// Sides, dark cap, light cap that depth can never hide from.
@@ -157,6 +163,12 @@ pub enum Reason {
     EyeOnBoundary,
     /// The device has no depth clamp.
     NoDepthClamp,
+    /// The caster may throw its shadow on the near rectangle.
+    OverNearRectangle,
+    /// None of the caster lies between the light and the near rectangle.
+    NearRectangleClear,
+    /// The light stands on the near plane, or shines along it.
+    LightOnNearPlane,
     /// The caster lies wholly beyond the light's range.
     OutOfRange,
     /// All of the caster lies on one plane: its outline is thrown by one matrix.
@@ -182,6 +194,9 @@ impl Reason {
             Self::SurfaceMayBeMissing => "the caster's surface may be missing from the depth buffer",
             Self::EyeOnBoundary => "the eye lies on the volume's boundary",
             Self::NoDepthClamp => "the device has no depth clamp",
+            Self::OverNearRectangle => "the caster may throw its shadow on the near rectangle",
+            Self::NearRectangleClear => "nothing of the caster lies between the light and the near rectangle",
+            Self::LightOnNearPlane => "the light stands on the near plane",
             Self::OutOfRange => "the caster lies beyond the light's range",
             Self::Planar => "the caster is a planar cut-out, thrown by one matrix",
             Self::NotPlanar => "the caster is no planar cut-out",

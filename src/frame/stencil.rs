@@ -154,6 +154,13 @@ impl StencilState {
         }
     }
 
+    /// Z-pass for triangles whose order of vertices was turned round: the operations are swapped instead.
+    #[must_use]
+    pub const fn count_z_pass_turned(budget: BitBudget) -> Self {
+        let straight = Self::count_z_pass(budget);
+        Self { front: straight.back, back: straight.front, ..straight }
+    }
+
     /// Z-fail (Carmack 2000; M section 3): from infinity to the surface, behind it.
     #[must_use]
     pub const fn count_z_fail(budget: BitBudget) -> Self {
@@ -185,6 +192,30 @@ impl StencilState {
     #[must_use]
     pub const fn lower_behind(budget: BitBudget) -> Self {
         Self::one_sided(budget.count_mask, StencilFace::count(DecrementWrap, Keep))
+    }
+
+    /// As [`Self::raise_behind`], but clamped, as before wrapping operations were common (B).
+    #[must_use]
+    pub const fn raise_behind_clamped(budget: BitBudget) -> Self {
+        Self::one_sided(budget.count_mask, StencilFace::count(StencilOp::IncrementClamp, Keep))
+    }
+
+    /// As [`Self::lower_behind`], but clamped (B).
+    #[must_use]
+    pub const fn lower_behind_clamped(budget: BitBudget) -> Self {
+        Self::one_sided(budget.count_mask, StencilFace::count(StencilOp::DecrementClamp, Keep))
+    }
+
+    /// Passes where the count is not the reference, and makes it the reference everywhere (B's dark quad).
+    #[must_use]
+    pub const fn reset_where_counted(budget: BitBudget) -> Self {
+        let face = StencilFace {
+            compare: Compare::NotEqual,
+            fail: StencilOp::Replace,
+            depth_fail: StencilOp::Replace,
+            pass: StencilOp::Replace,
+        };
+        Self::one_sided(budget.count_mask, face)
     }
 
     /// Parity (K 6.1): every face before the surface turns the lowest bit over, whichever way it looks.

@@ -189,6 +189,10 @@ pub enum Program {
     WideBit,
     /// Full screen: what a field of as many values as the constant's red makes of [`Target::Counts`].
     WideOverflow,
+    /// Light caps on the near rectangle, seen from the light, no colour.
+    NearPlane,
+    /// Full screen, before the picture: one colour where the stencil lets it through.
+    Dark,
 }
 
 /// What a step draws, by number.

@@ -44,6 +44,9 @@ impl Display for FramePlan {
             if let Some(flaw) = volume.flaw {
                 write!(f, "; built wrongly: {flaw:?}")?;
             }
+            if let Some(metres) = volume.extrusion {
+                write!(f, "; ends {metres} m from the light")?;
+            }
             if let Some(end) = volume.end {
                 write!(f, "; ends where ({}) . x = {:.3}", end.truncate(), -end.w)?;
             }

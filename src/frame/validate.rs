@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::plan::{FramePlan, Method};
 use super::state::{Blend, Compare, NearPlane, State};
-use super::stencil::StencilOp;
+use super::stencil::{StencilOp, StencilState};
 use super::step::{Action, Draw, DrawSet, Part, Program, Target};
 
 /// A rule that a plan may break on purpose, where it shows what comes of it: see
@@ -189,18 +189,28 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
             }
         }
     } else if stencil.writes() {
-        return check_full_screen(draw, state);
+        return check_full_screen(plan, draw, state);
     }
     Ok(())
 }
 
 /// A full-screen step that sets bits: the start of a count, its collapse, or a verdict read from wide
-/// counts. It replaces, everywhere or where a count is not zero.
-fn check_full_screen(draw: &Draw, state: &mut Progress) -> Result<(), &'static str> {
+/// counts. It replaces, everywhere or where a count is not zero. Or it darkens by a count that it ends.
+fn check_full_screen(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(), &'static str> {
     if draw.set != DrawSet::FullScreen {
         return Err("only volumes are counted");
     }
     let stencil = &draw.state.stencil;
+    if draw.program == Program::Dark {
+        if *stencil != StencilState::reset_where_counted(plan.budget) || draw.stencil_reference != 0 {
+            return Err("what darkens where a count is not zero sets it back, all of it");
+        }
+        if state.counted != draw.light {
+            return Err("it darkens by a count that was not made");
+        }
+        state.counted = None;
+        return Ok(());
+    }
     let face = &stencil.front;
     let replaces = |op: StencilOp| op == StencilOp::Replace;
     if stencil.back != stencil.front || !replaces(face.pass) || replaces(face.fail) || replaces(face.depth_fail) {

@@ -7,6 +7,7 @@ pub mod eye_count;
 pub mod flatten;
 pub mod flaw;
 pub mod frustum;
+pub mod near_rectangle;
 pub mod overlap;
 pub mod silhouette;
 pub mod terminator;

@@ -71,11 +71,13 @@ pub struct VolumeParts {
     pub dark_cap: bool,
     /// What the sides and the dark cap follow.
     pub outline: Outline,
+    /// Far ends are places of their own, for directional lights too, which then have a dark cap.
+    pub finite: bool,
 }
 
 impl VolumeParts {
     /// Nothing yet.
-    pub const NONE: Self = Self { sides: false, light_cap: false, dark_cap: false, outline: Outline::Silhouette };
+    pub const NONE: Self = Self { sides: false, light_cap: false, dark_cap: false, outline: Outline::Silhouette, finite: false };
     /// What z-pass counts with.
     pub const SIDES: Self = Self { sides: true, ..Self::NONE };
     /// What z-fail counts with.
@@ -165,7 +167,8 @@ impl VolumeScratch {
     ) -> VolumeIndices {
         let Caster { topology, welded, planes, .. } = caster;
         self.facing.decide(topology, planes, light);
-        let dark_cap = parts.dark_cap && light.w != 0.0;
+        let to_one_point = light.w == 0.0 && !parts.finite;
+        let dark_cap = parts.dark_cap && !to_one_point;
         if parts.sides || dark_cap {
             match parts.outline {
                 Outline::Silhouette => {
@@ -186,7 +189,7 @@ impl VolumeScratch {
         };
         if parts.sides {
             for (edges, range) in [(&self.edges, &mut ranges.sides), (&self.turned, &mut ranges.sides_turned)] {
-                if light.w == 0.0 {
+                if to_one_point {
                     indices.extend(edges.iter().flat_map(|&[a, b]| [a, extruded(a), b]));
                 } else {
                     indices.extend(edges.iter().flat_map(|&[a, b]| [a, extruded(a), extruded(b), a, extruded(b), b]));

@@ -8,7 +8,7 @@ use super::cutouts::{CutoutScratch, thrown};
 use super::scene_buffers::SceneBuffers;
 use super::slides::Slides;
 use super::types::{Draw, Frame, Light, Object, Volume};
-use crate::frame::{DrawSet, FramePlan, Part};
+use crate::frame::{DrawSet, FramePlan, Method, Part};
 use crate::geometry::ending::NEVER_ENDS;
 use crate::geometry::light_in_object;
 use crate::geometry::volume::{Caster, VolumeIndices, VolumeParts, VolumeScratch};
@@ -201,7 +201,8 @@ impl FrameBuffers {
             if let DrawSet::Volumes(parts) = &draw.set {
                 for part in parts {
                     let outline = plan.volumes[part.volume].outline;
-                    let wanted = scratch.parts[part.volume].get_or_insert(VolumeParts { outline, ..VolumeParts::NONE });
+                    let finite = plan.volumes[part.volume].extrusion.is_some();
+                    let wanted = scratch.parts[part.volume].get_or_insert(VolumeParts { outline, finite, ..VolumeParts::NONE });
                     match part.part {
                         Part::Sides | Part::SidesTurned => wanted.sides = true,
                         Part::LightCapKept | Part::LightCapTurned => wanted.light_cap = true,
@@ -222,10 +223,18 @@ impl FrameBuffers {
             scratch.volumes.push(Volume {
                 light_in_object: light.to_array(),
                 end_in_object: end_in_object(volume.end, &pose.world_from_object[node_index]).to_array(),
-                thrown: volume.cutout.as_ref().map_or(Mat4::IDENTITY, thrown).to_cols_array_2d(),
+                thrown: match volume.method {
+                    Method::ZPlus | Method::ZPlusMirrored => {
+                        near_from_object(plan, &pose.lights[volume.light], &pose.world_from_object[node_index])
+                    }
+                    _ => volume.cutout.as_ref().map_or(Mat4::IDENTITY, thrown),
+                }
+                .to_cols_array_2d(),
                 object: u32::try_from(volume.instance).unwrap_or(0),
                 by_matrix: u32::from(volume.cutout.is_some()),
-                _pad: [0; 2],
+                #[expect(clippy::cast_possible_truncation, reason = "the GPU works in f32")]
+                extrusion: volume.extrusion.unwrap_or(0.0) as f32,
+                _pad: 0,
             });
             let Some(parts) = *wanted else {
                 self.volume_indices.push(VolumeIndices::default());
@@ -275,6 +284,13 @@ impl FrameBuffers {
     pub fn index_count(&self) -> u64 {
         self.scratch.indices.len() as u64
     }
+}
+
+/// Object space to clip space, as the light sees it through the eye's near rectangle.
+fn near_from_object(plan: &FramePlan, light: &PosedLight, world_from_object: &DAffine3) -> Mat4 {
+    // Only lights that look through it have volumes counted so.
+    let through = plan.views[0].camera.through_light(light);
+    through.map_or(Mat4::IDENTITY, |through| (through.clip_from_world * DMat4::from(*world_from_object)).as_mat4())
 }
 
 /// A plane of world space in object space, its normal made unit again.

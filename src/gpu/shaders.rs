@@ -28,6 +28,7 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("labels.wgsl", include_str!("../../shaders/labels.wgsl")),
     ("stencil_only.wgsl", include_str!("../../shaders/stencil_only.wgsl")),
     ("wide.wgsl", include_str!("../../shaders/wide.wgsl")),
+    ("dark.wgsl", include_str!("../../shaders/dark.wgsl")),
     ("output.wgsl", include_str!("../../shaders/output.wgsl")),
 ];
 
@@ -126,6 +127,8 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::WideVerdictEach, "wide.wgsl", "full_screen_vertex", "wide_verdict_each", Vertices::None, &[]),
     entry(Program::WideBit, "wide.wgsl", "full_screen_vertex", "wide_bit", Vertices::None, &[]),
     entry(Program::WideOverflow, "wide.wgsl", "full_screen_vertex", "wide_overflow", Vertices::None, &[]),
+    entry(Program::NearPlane, "volume.wgsl", "near_plane_vertex", "volume_count", Vertices::Volume, &[]),
+    entry(Program::Dark, "dark.wgsl", "full_screen_vertex", "dark", Vertices::None, &[]),
 ];
 
 /// The entry of a program.

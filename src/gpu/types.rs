@@ -83,14 +83,17 @@ pub struct Volume {
     pub light_in_object: [f32; 4],
     /// The plane the volume ends on, in the same space.
     pub end_in_object: [f32; 4],
-    /// Where a cut-out's far vertices go: homogeneous object space.
+    /// Where a cut-out's far vertices go: homogeneous object space. For ZP+, where the light sees a
+    /// vertex through the near rectangle: clip space.
     pub thrown: [[f32; 4]; 4],
     /// The caster's instance number.
     pub object: u32,
     /// 1 for cut-outs, whose far vertices are thrown by the matrix.
     pub by_matrix: u32,
+    /// Metres from the light to the far end; 0 where that is a plane.
+    pub extrusion: f32,
     #[doc(hidden)]
-    pub _pad: [u32; 2],
+    pub _pad: u32,
 }
 
 /// `struct Draw` of `shared/frame.wgsl`: one a step, at a dynamic offset.

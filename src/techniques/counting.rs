@@ -21,6 +21,7 @@ use crate::geometry::ending::ending_plane;
 use crate::geometry::eye_count::{EyeCount, holding_count};
 use crate::geometry::frustum::NearPyramid;
 use crate::geometry::light_in_object;
+use crate::geometry::near_rectangle::may_shadow;
 use crate::scene::{AlphaMode, LightKind, Mesh, Node, Pose, PosedLight, Scene};
 use crate::settings::{Overflow, Technique};
 
@@ -120,6 +121,15 @@ impl Caster<'_> {
         self.receivers.corners().map(|corner| object_from_world.transform_point3(corner))
     }
 
+    /// Whether some of it may lie between the light and the near rectangle. Conservative: may say yes
+    /// wrongly, never no.
+    #[must_use]
+    pub fn may_shadow_near_rectangle(&self) -> bool {
+        let bounds = self.pose.bounds(self.scene, self.node_index);
+        let rectangle = self.view.camera.near_rectangle();
+        may_shadow(self.light.into(), rectangle, &bounds, &self.pose.world_from_object[self.node_index])
+    }
+
     /// The plane on which its volume may end without a visible pixel's count changing.
     #[must_use]
     pub fn end(&self) -> Option<DVec4> {
@@ -196,7 +206,8 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
             reason,
             holds_eye,
             outline: row.outline,
-            end: if cutout.is_none() { caster.end() } else { None },
+            extrusion: row.extrusion,
+            end: if cutout.is_none() && row.extrusion.is_none() { caster.end() } else { None },
             cutout,
             turns,
             winding: caster.winding(),

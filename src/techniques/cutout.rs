@@ -22,6 +22,8 @@ pub(super) const ROW: Row = Row {
     source: "Kilgard 1999, 6.2.1 and appendix C",
     decide: |caster| Some(decide(caster)),
     outline: Outline::Silhouette,
+    extrusion: None,
+    darkens: None,
     groups: &[z_fail::GROUPS],
 };
 

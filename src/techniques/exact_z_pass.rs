@@ -34,6 +34,8 @@ pub(super) const ROW: Row = Row {
     source: "this project; after Heidmann 1991 and Lengyel 2002; aim as in Usta et al. 2019",
     decide: |caster| Some(decide(caster)),
     outline: Outline::Silhouette,
+    extrusion: None,
+    darkens: None,
     groups: &[GROUPS, z_fail::GROUPS],
 };
 

@@ -26,6 +26,8 @@ pub(super) const ROW: Row = Row {
     source: "Kilgard 1999, 6.2.2",
     decide: |caster| Some(decide(caster)),
     outline: Outline::Silhouette,
+    extrusion: None,
+    darkens: None,
     groups: &[z_fail::GROUPS],
 };
 

@@ -8,6 +8,7 @@
 //! A further technique is a line in [`Technique`], a file here with its `ROW`, and its name in
 //! [`TABLE`]; panel, command line, lists and the tour read those.
 
+pub mod beam;
 pub mod counting;
 mod cutout;
 mod exact_z_pass;
@@ -23,6 +24,7 @@ pub mod surfaces;
 pub mod wide;
 mod z_fail;
 mod z_pass;
+mod z_plus;
 
 use crate::frame::{Method, Reason};
 use crate::geometry::Outline;
@@ -47,6 +49,12 @@ pub struct Row {
     pub decide: fn(&Caster<'_>) -> Option<(Method, Reason)>,
     /// Whether a caster has one volume, or each of its polygons one.
     pub outline: Outline,
+    /// Metres from the light to where volumes end, for techniques whose volumes do not reach as far as
+    /// there is something to shadow.
+    pub extrusion: Option<f64>,
+    /// Linear RGBA laid over the lit picture where a caster's count is not zero, for techniques that
+    /// darken instead of adding light where it is.
+    pub darkens: Option<[f32; 4]>,
     /// The states that its volumes' parts are counted with, in order; those of a technique that it
     /// falls back on among them.
     pub groups: &'static [&'static [Group]],
@@ -59,8 +67,10 @@ pub static TABLE: &[Row] = &[
     z_fail::ROW,
     exact_z_pass::ROW,
     wide::ROW,
+    z_plus::ROW,
     one_sided::ROW,
     per_polygon::ROW,
+    beam::ROW,
     parity::ROW,
     cutout::ROW,
     flattened::ROW,

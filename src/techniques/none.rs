@@ -12,5 +12,7 @@ pub(super) const ROW: Row = Row {
     source: "the baseline",
     decide: |_| None,
     outline: Outline::Silhouette,
+    extrusion: None,
+    darkens: None,
     groups: &[],
 };

@@ -30,6 +30,8 @@ pub(super) const ROW: Row = Row {
     source: "Kilgard 1999, 6.3; Lengyel 2002, Rendering Shadow Volumes; CSCI 4229, Z-Fail Algorithm",
     decide: |caster| Some(z_fail::decide(caster)),
     outline: Outline::Silhouette,
+    extrusion: None,
+    darkens: None,
     groups: &[RAISING, LOWERING],
 };
 

@@ -28,6 +28,8 @@ pub(super) const ROW: Row = Row {
     source: "Kilgard 1999, 6.1",
     decide: |_| Some((Method::ZPass, Reason::Technique)),
     outline: Outline::Silhouette,
+    extrusion: None,
+    darkens: None,
     groups: &[GROUPS],
 };
 

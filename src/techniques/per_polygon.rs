@@ -32,6 +32,8 @@ pub(super) const ROW: Row = Row {
     source: "Kilgard 1999, 6.3; Beam 2004, Shadow Volumes",
     decide: |caster| Some(z_fail::decide(caster)),
     outline: Outline::Polygons,
+    extrusion: None,
+    darkens: None,
     groups: &[z_fail::GROUPS, CANCELLING],
 };
 

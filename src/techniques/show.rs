@@ -2,7 +2,7 @@
 
 use crate::frame::plan::VolumePlan;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
-use crate::frame::stencil::StencilState;
+use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{Action, Draw, DrawSet, Gather, Look, Method, Part, Program, Step, Target, VolumePart};
 
 /// One light's volumes as coloured glass over the picture (M image 2).
@@ -46,6 +46,34 @@ pub fn volumes(plans: &[VolumePlan], light: usize, scissor: [u32; 4]) -> Vec<Ste
         });
     }
     steps
+}
+
+/// Darkens the lit picture where a caster's count is not zero, and sets the count back (B).
+#[must_use]
+pub fn dark(light: usize, color: [f32; 4], budget: BitBudget, scissor: [u32; 4]) -> Step {
+    Step {
+        label: format!("light {light}: darken"),
+        why: "A dark quad over all pixels whose count is not zero; it sets the count back for the next caster.".into(),
+        view: 0,
+        action: Action::Draw(Box::new(Draw {
+            program: Program::Dark,
+            look: Look::default(),
+            target: Target::Scene,
+            state: State {
+                depth: Depth::IGNORE,
+                stencil: StencilState::reset_where_counted(budget),
+                color: Some(Blend::Over),
+                cull: Cull::None,
+                winding: Winding::Ccw,
+                near_plane: NearPlane::Clip,
+            },
+            stencil_reference: 0,
+            scissor,
+            light: Some(light),
+            constant: color,
+            set: DrawSet::FullScreen,
+        })),
+    }
 }
 
 /// Every triangle's edges.

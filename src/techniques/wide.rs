@@ -32,6 +32,8 @@ pub(super) const ROW: Row = Row {
     source: "this project; after Carmack 2000 (z-fail) and the counting by blending of hardware without stencil",
     decide: |caster| Some(z_fail::decide(caster)),
     outline: Outline::Silhouette,
+    extrusion: None,
+    darkens: None,
     groups: &[GROUPS],
 };
 

@@ -28,6 +28,8 @@ pub(super) const ROW: Row = Row {
     source: "Carmack 2000; McGuire et al. 2003, 3; Lengyel 2002, Rendering Shadow Volumes",
     decide: |caster| Some(decide(caster)),
     outline: Outline::Silhouette,
+    extrusion: None,
+    darkens: None,
     groups: &[GROUPS],
 };
 

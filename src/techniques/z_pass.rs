@@ -28,10 +28,12 @@ pub(super) const ROW: Row = Row {
     source: "Heidmann 1991; Kilgard 1999, 6; Lengyel 2002, Rendering Shadow Volumes",
     decide: |_| Some((Method::ZPass, Reason::Technique)),
     outline: Outline::Silhouette,
+    extrusion: None,
+    darkens: None,
     groups: &[GROUPS],
 };
 
-const GROUPS: &[Group] = &[Group {
+pub(super) const GROUPS: &[Group] = &[Group {
     method: Method::ZPass,
     parts: &[Part::Sides],
     label: "count sides, z-pass",
