@@ -291,3 +291,18 @@ fn validation_knows_what_batches_and_wide_counts_must_be() {
     assert!(verdict(&|draw| draw.light = None).contains("not counted wide"));
     assert!(verdict(&|draw| draw.state.stencil.front.pass = StencilOp::Keep).contains("replaces"));
 }
+
+#[test]
+fn at_the_foot_of_the_stairs_eight_bits_fail_and_exact_techniques_do_not() {
+    let scene = stock::build("stairs").unwrap().unwrap();
+    let mut stage = Stage::new();
+    stage.set_scene(&scene);
+    let settings = Settings { size: SIZE, ..Settings::default() };
+    for technique in [Technique::ZFail, Technique::ExactZPass] {
+        let shot = assert_exact(&mut stage, &scene, &Settings { technique, ..settings.clone() });
+        assert!(note(&shot).contains("batches"), "{}", note(&shot));
+    }
+    let counting = Counting { overflow: Overflow::Naive, ..Counting::default() };
+    let naive = stage.verify(&Settings { counting, ..settings }, &scene);
+    assert!(naive[0].wrong() > 0, "256 volumes over a pixel are none to eight bits");
+}
