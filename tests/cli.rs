@@ -357,3 +357,26 @@ fn hostile_files_are_one_line_each() {
     }
     assert!(count > 0);
 }
+
+#[test]
+fn verify_says_what_is_wrong_and_ends_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let text = good(here, &["verify", "cubes", "--size", "96x54", "--technique", "z-fail", "--diff", "d.png"]);
+    assert!(text.contains("z-fail") && text.contains("lamp"), "{text}");
+    assert_eq!(image::open(here.join("d.png")).unwrap().width(), 96);
+    // Eyes in shadow: what z-pass claims is no more than it does, so its wrong pixels are no failure.
+    let arguments = ["verify", "eye-in-shadow", "--size", "96x54", "--technique", "z-pass", "--random", "6", "--json"];
+    let json: Value = serde_json::from_str(&good(here, &arguments)).unwrap();
+    let rows = json["lights"].as_array().unwrap();
+    assert!(rows.iter().all(|row| row["technique"] == "z-pass" && row["exact"] == false));
+    assert!(rows.iter().map(|row| row["wrong"].as_u64().unwrap()).sum::<u64>() > 100, "{json}");
+    assert!(json["wrong_views"][0]["command"].as_str().unwrap().starts_with("obscura render eye-in-shadow"));
+    assert_eq!(json["seed"], 1);
+
+    let usage = run(here, &["verify", "cubes", "--show", "stencil"]);
+    assert_eq!(usage.status.code(), Some(2));
+    bad(here, &["verify", "cubes", "--technique", "guess"]);
+    bad(here, &["verify", "cubes", "--light", "9"]);
+    bad(here, &["verify", "cubes", "--diff", "nowhere/d.png"]);
+}

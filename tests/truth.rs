@@ -4,12 +4,15 @@
 mod common;
 
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use common::{Build, Stage, assert_exact, cube, mesh, seen_from, square};
 use glam::DVec3;
+use obscura::cli::VerifyRequest;
 use obscura::frame::Camera;
+use obscura::headless::verify::verify;
 use obscura::scene::{AlphaMode, PosedLight, Scene, pose, stock};
-use obscura::settings::{Settings, Technique};
+use obscura::settings::{SceneChoice, Settings, Technique};
 use obscura::truth::{Verdict, World};
 
 const EXACT: [Technique; 2] = [Technique::ZFail, Technique::ExactZPass];
@@ -67,8 +70,8 @@ fn rays_tell_lit_from_shadow_and_both_sides_of_a_sheet() {
     let from = |eye: DVec3, target: DVec3| middle(&scene, eye, target);
     assert_eq!(from(DVec3::new(4.0, 1.0, 0.0), DVec3::new(0.2, 0.0, 0.1)), Verdict::Shadow, "beneath the sheet");
     assert_eq!(from(DVec3::new(4.0, 1.0, 0.0), DVec3::new(2.5, 0.0, 0.1)), Verdict::Lit, "beside its shadow");
-    assert_eq!(from(DVec3::new(0.5, 5.0, 0.5), DVec3::new(0.3, 2.0, 0.3)), Verdict::Lit, "the sheet from above");
-    assert_eq!(from(DVec3::new(0.5, 0.5, 0.5), DVec3::new(0.3, 2.0, 0.3)), Verdict::Shadow, "its dark side");
+    assert_eq!(from(DVec3::new(0.5, 5.0, 0.5), DVec3::new(0.3, 2.0, 0.1)), Verdict::Lit, "the sheet from above");
+    assert_eq!(from(DVec3::new(0.5, 0.5, 0.5), DVec3::new(0.3, 2.0, 0.1)), Verdict::Shadow, "its dark side");
     assert_eq!(from(DVec3::new(0.5, 1.0, 0.5), DVec3::new(9.0, 5.0, 0.3)), Verdict::Nothing, "the sky");
     // Twice the sheet's side, for the lamp is 4 above it and 6 above the floor: a shadow of 1.5.
     assert_eq!(from(DVec3::new(4.0, 3.0, 0.0), DVec3::new(1.49, 0.0, 0.0)), Verdict::Edge);
@@ -175,4 +178,60 @@ fn the_tree_finds_what_every_triangle_tells() {
         dark += usize::from(crossed);
     }
     assert!(dark > 60 && dark < points - 60, "{dark}");
+}
+
+/// `../shared`: beside the checkout, or beside the folder of its worktrees.
+fn shared() -> Option<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    ["../shared", "../../shared"].iter().map(|path| root.join(path)).find(|path| path.is_dir())
+}
+
+/// Files of a shared folder that scenes are read from.
+fn files(folder: &str) -> Vec<PathBuf> {
+    let Some(folder) = shared().map(|shared| shared.join(folder)) else {
+        println!("no ../shared here: its {folder} are left out");
+        return Vec::new();
+    };
+    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "glb" || extension == "gltf"));
+    files.sort();
+    files
+}
+
+/// Random views of one scene, each by the exact techniques: not one decided pixel may be wrong.
+fn assert_exact_on_random_views(scene: SceneChoice, floor: bool, count: usize) {
+    let request = VerifyRequest {
+        settings: Settings { scene, floor, size: [160, 90], ..Settings::default() },
+        techniques: EXACT.to_vec(),
+        light: None,
+        random: Some((count, 20_261_122)),
+        diff: None,
+    };
+    let report = verify(&request).unwrap();
+    println!("{report}");
+    assert_eq!((report.views, report.broken_promises()), (count, 0), "{report}");
+    let decided: usize = report.lights.iter().map(|row| row.decided).sum();
+    let shadow: usize = report.lights.iter().map(|row| row.shadow).sum();
+    assert!(decided > count * 2 * 160 * 90 * 8 / 10 && shadow > 500, "{report}");
+}
+
+#[test]
+fn random_views_of_the_stock_scenes_are_exact() {
+    for row in stock::TABLE {
+        assert_exact_on_random_views(SceneChoice::Stock(row.name.into()), false, 6);
+    }
+}
+
+#[test]
+fn random_views_of_the_shared_scenes_are_exact() {
+    for path in files("scenes") {
+        assert_exact_on_random_views(SceneChoice::File(path), false, 4);
+    }
+}
+
+#[test]
+fn random_views_of_the_shared_models_are_exact() {
+    for path in files("models") {
+        assert_exact_on_random_views(SceneChoice::File(path), true, 6);
+    }
 }

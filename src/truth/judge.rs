@@ -28,6 +28,9 @@ const PLACES: [DVec2; 9] = [
 const QUARTER: f64 = 0.25;
 const SNAP: f64 = 1.0 / 128.0;
 
+/// The first of the places that are so near.
+const FIRST_SNAPPED: usize = 5;
+
 /// Where the light is moved to, in [`NUDGE`]s.
 const NUDGES: [DVec3; 4] = [DVec3::ONE, DVec3::NEG_ONE, DVec3::new(1.0, -1.0, 1.0), DVec3::new(-1.0, 1.0, -1.0)];
 
@@ -220,7 +223,10 @@ impl<'a> Caster<'a> {
         };
         self.world.tree.descend(&mut sight, &mut self.stack);
         let nearest = sight.nearest;
-        if nearest.iter().any(|met| !met.sure || met.instance != nearest[0].instance) {
+        // Close to the centre they must meet the very same triangle: where two join, a rasteriser may give
+        // the pixel to the one and the edge of a volume that begins there to the other.
+        let elsewhere = nearest.iter().any(|met| !met.sure || met.instance != nearest[0].instance);
+        if elsewhere || nearest[FIRST_SNAPPED..].iter().any(|met| met.face != nearest[0].face) {
             return Shown::Edge;
         }
         if nearest[0].instance == u32::MAX {

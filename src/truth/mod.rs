@@ -14,7 +14,7 @@
 //! and one wrong pixel is too many. Where they do not, an outline or the border of a shadow passes
 //! through the pixel: an [edge](Verdict::Edge), about which rounding may decide, counted but not asked
 //! about. So that slivers do not slip between the five, four more look 1/128 pixel around the centre:
-//! a rasteriser moves corners to the nearest 256th.
+//! a rasteriser moves corners to the nearest 256th. They must meet one and the same triangle.
 //!
 //! One more doubt is counted by itself. A light in the plane of a face, or nearly, throws the sides of
 //! the face's own volume almost into that plane, closer to it than the steps of a depth buffer. Two more
