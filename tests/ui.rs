@@ -319,7 +319,7 @@ fn dragging_the_picture_moves_the_eye_about_its_target() {
 #[test]
 fn a_failure_is_chosen_read_and_switched_off_to_compare() {
     let mut harness = open(Bench::new());
-    click(&mut harness, "Failures");
+    harness.get_by_label("Failures").click();
     harness.run_steps(8);
     assert!(harness.query_by_label("Make this mistake").is_none(), "none is chosen yet");
     for row in &failures::TABLE {
@@ -336,10 +336,12 @@ fn a_failure_is_chosen_read_and_switched_off_to_compare() {
     harness.state_mut().settings = failures::demonstration(Failure::NoDarkCap, &Settings { size, ..Settings::default() });
     let on = settings(&harness);
     harness.run_steps(2);
-    click(&mut harness, "Make this mistake");
+    harness.get_by_label("Make this mistake").click();
+    harness.run_steps(3);
     assert_eq!(settings(&harness), Settings { failure: None, ..on.clone() });
     assert!(harness.query_by_label(row.why).is_some(), "the sentences stay");
-    click(&mut harness, "Make this mistake");
+    harness.get_by_label("Make this mistake").click();
+    harness.run_steps(3);
     assert_eq!(settings(&harness), on);
 }
 
