@@ -34,7 +34,7 @@ use crate::settings::{CameraChoice, Failure, LightEdit, MAX_SIZE, SceneChoice, S
 #[allow(clippy::large_enum_variant, reason = "there is one, once")]
 pub enum Command {
     /// Opens the window.
-    Window(WindowRequest),
+    Window(Box<WindowRequest>),
     /// Draws one picture.
     Render {
         /// What is drawn.
@@ -163,7 +163,7 @@ impl Parsed {
                 let (vsync, frames) = (arguments.vsync.map(|switch| switch == Switch::On), arguments.frames);
                 let request = WindowRequest { arguments, vsync, frames, bare: self.bare };
                 request.settings(Settings::default())?;
-                Command::Window(request)
+                Command::Window(Box::new(request))
             }
             Some(Subcommands::Render(render)) => Command::Render {
                 settings: render.picture.settings(render.scene.as_deref(), Settings::default())?,

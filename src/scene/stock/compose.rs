@@ -222,7 +222,7 @@ impl Composer {
     }
 
     /// The same shape drawn from both sides: a sheet.
-    pub(super) fn from_both_sides(&mut self, prop: Prop) -> Prop {
+    pub(super) fn sheet(&mut self, prop: Prop) -> Prop {
         self.remade(prop, |material| material.double_sided = true)
     }
 

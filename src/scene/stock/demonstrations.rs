@@ -100,7 +100,7 @@ pub(super) fn awning() -> Result<Scene, ImportError> {
         }
     }
     let cloth = c.made("awning", &positions, &triangles, [0.62, 0.20, 0.10], 0.95);
-    let cloth = c.from_both_sides(cloth);
+    let cloth = c.sheet(cloth);
     c.put("awning", cloth, at(0.0, 0.0, 0.0));
 
     let post = c.prop("post");
