@@ -277,6 +277,8 @@ named! {
         DarkCapFan = "dark-cap-fan",
         /// Counting that stops at 0 and 255.
         Saturating = "saturating",
+        /// More volumes over a pixel than the stencil can count.
+        StencilOverflow = "stencil-overflow",
         /// The rules for closed meshes on an open one.
         OpenMesh = "open-mesh",
         /// A vertex in the middle of an edge.

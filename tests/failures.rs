@@ -18,6 +18,7 @@ fn least(failure: Failure) -> usize {
     match failure {
         Failure::EyeInShadow | Failure::DarkCapFan => 3000,
         Failure::TJunction => 10,
+        Failure::StencilOverflow => 20,
         Failure::MismatchedArithmetic => 100,
         _ => 200,
     }

@@ -24,7 +24,7 @@ use std::borrow::Cow;
 
 use crate::frame::FramePlan;
 use crate::scene::AnimationChoice;
-use crate::settings::{Failure, SceneChoice, Settings, Show, Technique};
+use crate::settings::{Counting, Failure, Overflow, SceneChoice, Settings, Show, Technique};
 
 pub use rows::TABLE;
 
@@ -81,11 +81,16 @@ pub fn demonstration(failure: Failure, base: &Settings) -> Settings {
     settings
 }
 
-/// The settings that are planned: the failure's technique stands in for the chosen one.
+/// The settings that are planned: the failure's technique stands in for the chosen one, and counts that
+/// overflow do so, for nobody who made these mistakes counted in batches.
 #[must_use]
 pub fn while_on(settings: &Settings) -> Cow<'_, Settings> {
     match settings.failure {
-        Some(failure) => Cow::Owned(Settings { technique: row(failure).technique, ..settings.clone() }),
+        Some(failure) => Cow::Owned(Settings {
+            technique: row(failure).technique,
+            counting: Counting { overflow: Overflow::Naive, ..settings.counting },
+            ..settings.clone()
+        }),
         None => Cow::Borrowed(settings),
     }
 }

@@ -16,7 +16,7 @@ fn off(settings: &mut Settings, light: usize) {
 }
 
 /// Every failure, in the order of [`Failure::ALL`].
-pub static TABLE: [Row; 12] = [
+pub static TABLE: [Row; 13] = [
     Row {
         failure: Failure::EyeInShadow,
         title: "Eye in shadow",
@@ -103,6 +103,18 @@ pub static TABLE: [Row; 12] = [
         scene: "grid",
         view: |settings| off(settings, 1),
         spoil: spoil::clamp_counts,
+    },
+    Row {
+        failure: Failure::StencilOverflow,
+        title: "Stencil overflow",
+        seen: "Light lies at the foot of the stairs, where the shadow is deepest.",
+        why: "Eight bits count to 255, and a surface in the shadow of exactly 256 casters has the count of one in no shadow.",
+        cure: "Bound the count, and where it may overflow collapse batches of casters into one bit or count in a wider target.",
+        source: "McGuire et al. 2003, 4 and image 3",
+        technique: Technique::ZFail,
+        scene: "stairs",
+        view: |_| {},
+        spoil: spoil::nothing,
     },
     Row {
         failure: Failure::OpenMesh,

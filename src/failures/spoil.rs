@@ -6,7 +6,7 @@ use crate::frame::validate::Rule;
 use crate::frame::{Action, Draw, DrawSet, FramePlan, Method, Part, Program};
 use crate::geometry::Flaw;
 
-/// The technique that counts is the failure; the plan is as it was made.
+/// The technique that counts, or the count that overflows, is the failure; the plan is as it was made.
 pub(super) fn nothing(_: &mut FramePlan) {}
 
 /// The draws that count volumes.

@@ -66,7 +66,7 @@ pub(super) fn awning() -> Result<Scene, ImportError> {
     const STRIPS: u32 = 8;
     const PANELS: u32 = 9;
     /// Metres from one place to the next in the editor.
-    const GRID: f32 = 0.006;
+    const GRID: f32 = 0.008;
     let mut c = Composer::new("awning", &[FLOORS, ARCHITECTURE, FURNITURE, SOLIDS])?;
     c.environment([0.090, 0.100, 0.130], [0.060, 0.055, 0.050], [0.020, 0.034, 0.085], [0.13, 0.105, 0.12]);
     let floor = c.prop("paving");
@@ -116,7 +116,7 @@ pub(super) fn awning() -> Result<Scene, ImportError> {
 
     c.point_light("lamp", [0.4, 4.6, 0.7], [1.0, 0.92, 0.78], 120.0, 16.0);
     c.point_light("sky", [-5.0, 6.5, 7.5], [0.42, 0.55, 1.0], 40.0, 24.0);
-    c.camera("under the awning", [0.5, 2.0, 3.3], [0.05, 0.25, -0.2], 46.0);
+    c.camera("under the awning", [0.45, 1.8, 2.7], [0.0, 0.2, -0.1], 46.0);
     c.camera("above", [-2.6, 5.2, 5.6], [0.0, 1.6, 0.0], 44.0);
     Ok(c.finish())
 }
