@@ -101,7 +101,10 @@ pub static TABLE: [Row; 13] = [
         source: "Lengyel 2002, Rendering Shadow Volumes; Kilgard 1999, 1 (wrapping operations)",
         technique: Technique::ZFail,
         scene: "grid",
-        view: |settings| off(settings, 1),
+        view: |settings| {
+            settings.camera = CameraChoice::Named("inside".into());
+            off(settings, 1);
+        },
         spoil: spoil::clamp_counts,
     },
     Row {
