@@ -118,7 +118,7 @@ fn walkers(c: &mut Composer) {
 }
 
 fn lights(c: &mut Composer) {
-    c.point_light("evening sun", [7.2, 6.6, 7.4], [1.0, 0.66, 0.36], 330.0, 24.0);
+    c.point_light("evening sun", [8.0, 5.5, 2.2], [1.0, 0.66, 0.36], 300.0, 24.0);
     c.point_light("sky", [-5.2, 8.6, -3.2], [0.36, 0.52, 1.0], 150.0, 22.0);
     // The lantern hangs from the gallery's ceiling and swings about its hook.
     let hook = c.group("lantern", None, at(-3.6, GALLERY + 3.9, BACK - 1.45));
