@@ -1,9 +1,11 @@
-//! What a caster of 200,000 triangles costs: once a mesh, and each frame for each light.
+//! What a caster of 200,000 triangles costs: once a mesh, and each frame for each light; and what it
+//! costs to flatten one of 6,000 into a cut-out.
 
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::{DVec3, Vec3, Vec4};
+use obscura::geometry::flatten::{Flattener, flattening_plane};
 use obscura::geometry::{
     Aabb, Caster, Facing, Planes, Topology, VolumeParts, VolumeScratch, Weld, holding_count, silhouette::silhouette, terminator,
 };
@@ -85,11 +87,34 @@ fn geometry(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// K calls it "not a cheap operation": a knot's silhouette, projected and reduced to its outline.
+fn flattening(criterion: &mut Criterion) {
+    let (positions, indices) = torus_knot(250, 12);
+    let topology = Topology::build(&indices, &positions, Weld::new(&positions, |_, _| std::cmp::Ordering::Equal), |_| true);
+    assert_eq!(topology.report().triangles, 6_000);
+    let (mut welded, mut edges, mut facing) = (Vec::new(), Vec::new(), Facing::default());
+    topology.weld().gather(&positions, &mut welded);
+    let planes = planes_of(&topology, &welded);
+    let bounds = Aabb::from_points(welded.iter().copied());
+    let light = Vec4::new(5.0, 7.0, 3.0, 1.0);
+    facing.decide(&topology, &planes, light);
+    silhouette(&topology, &facing, &mut edges);
+    let plane = || flattening_plane(welded.iter().copied(), &bounds, black_box(light.as_dvec4()));
+    let Some(found) = plane() else { return };
+    let mut flattener = Flattener::default();
+    let mut group = criterion.benchmark_group("6,000 triangles, each light");
+    group.bench_function("plane to flatten on", |bencher| bencher.iter(plane));
+    group.bench_function("flattened silhouette", |bencher| {
+        bencher.iter(|| flattener.flatten(&welded, &edges, &found, light.as_dvec4()));
+    });
+    group.finish();
+}
+
 fn planes_of(topology: &Topology, welded: &[Vec3]) -> Planes {
     let mut planes = Planes::default();
     planes.build(topology, welded);
     planes
 }
 
-criterion_group!(benches, geometry);
+criterion_group!(benches, geometry, flattening);
 criterion_main!(benches);
