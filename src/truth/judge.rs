@@ -125,7 +125,7 @@ impl World {
         };
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let mut rows: Vec<(u32, T)> = std::thread::scope(|scope| {
-            let others: Vec<_> = (1..threads).map(|_| scope.spawn(&work)).collect();
+            let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
             let mut rows = work();
             for other in others {
                 match other.join() {
@@ -153,6 +153,7 @@ struct Caster<'a> {
 }
 
 /// What a pixel shows.
+#[expect(clippy::large_enum_variant, reason = "one at a time, on the stack")]
 enum Shown {
     Nothing,
     Edge,
