@@ -58,7 +58,14 @@ fn options(text: &str) -> BTreeSet<String> {
 #[test]
 fn every_option_is_listed_and_no_other() {
     let mut there = BTreeSet::new();
-    for command in [&["--help"][..], &["render", "--help"], &["list", "--help"], &["info", "--help"], &["tour", "--help"]] {
+    for command in [
+        &["--help"][..],
+        &["render", "--help"],
+        &["list", "--help"],
+        &["info", "--help"],
+        &["tour", "--help"],
+        &["verify", "--help"],
+    ] {
         let output = Command::new(env!("CARGO_BIN_EXE_obscura")).args(command).output().unwrap();
         there.extend(options(&String::from_utf8(output.stdout).unwrap()));
     }

@@ -236,9 +236,10 @@ impl<'a> Caster<'a> {
         let depths = nearest.map(|met| met.depth);
         let (least, most) =
             depths.iter().fold((f64::INFINITY, 0f64), |(least, most), depth| (least.min(*depth), most.max(*depth)));
-        // Two steps of a depth buffer of 24 bits, and what its corners' moving to the nearest 256th of a
-        // pixel makes of the slope: the places lie half a pixel apart.
-        let unsure = 2.0 * depths[0] * depths[0] / near * 0.5f64.powi(24) + (most - least) / 64.0;
+        // Four roundings of a corner's place in single precision, and what corners' moving to the nearest
+        // 256th of a pixel makes of the slope: the places lie half a pixel apart.
+        let reach = depths[0] + eye.abs().max_element() + self.world.largest;
+        let unsure = 4.0 * 0.5f64.powi(24) * reach + (most - least) / 64.0;
         let at = |place: usize, depth: f64| eye + directions[place] * depth;
         Shown::Surface(Surface {
             points: std::array::from_fn(|place| at(place, depths[place] * (1.0 - HAIR))),

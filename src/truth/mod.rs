@@ -17,8 +17,8 @@
 //! a rasteriser moves corners to the nearest 256th. They must meet one and the same triangle.
 //!
 //! One more doubt is counted by itself. A light in the plane of a face, or nearly, throws the sides of
-//! the face's own volume almost into that plane, closer to it than the steps of a depth buffer. Two more
-//! rays therefore start where the surface would be if it were that much nearer or farther; where they
+//! the face's own volume almost into that plane, closer to it than single precision tells apart. Two
+//! more rays therefore start where the surface would be if it were that much nearer or farther; where they
 //! disagree with the rest the pixel is [grazing](Verdict::Grazing).
 //!
 //! ```no_run
