@@ -207,8 +207,8 @@ pub fn plan(
             }
             frame.extend(surfaces::textures(&groups, whole));
             if let Some(color) = darkens {
-                for (light, scissor, _) in lights {
-                    frame.darken(light, color, scissor);
+                for (light, ..) in lights {
+                    frame.darken(light, color);
                 }
             }
             frame.extend(transparent);
@@ -359,17 +359,19 @@ impl<'a> Frame<'a> {
         count
     }
 
-    /// Counts one caster after the other, and darkens what is already lit where one counts.
-    fn darken(&mut self, light: usize, color: [f32; 4], lit: [u32; 4]) {
+    /// Counts one caster after the other, and darkens what is already lit where one counts: everywhere,
+    /// for a rectangle that ends with the light's range would show.
+    fn darken(&mut self, light: usize, color: [f32; 4]) {
+        let whole = self.whole();
         let row = techniques::row(self.settings.technique);
         let mut volumes = std::mem::take(&mut self.plan.volumes);
         let mut steps = Vec::new();
-        if let Some((casters, scissor)) = self.casters(light) {
+        if let Some((casters, _)) = self.casters(light) {
             for caster in casters.chunks(1) {
-                let count = counting::count_light(row, caster, &self.ask(light, scissor), &mut volumes);
+                let count = counting::count_light(row, caster, &self.ask(light, whole), &mut volumes);
                 if !count.steps.is_empty() {
                     steps.extend(count.steps);
-                    steps.push(show::dark(light, color, self.plan.budget, lit));
+                    steps.push(show::dark(light, color, self.plan.budget, whole));
                 }
             }
         }

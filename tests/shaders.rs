@@ -102,7 +102,8 @@ fn shared_structs_have_the_same_layout() {
             pixel,
             background_bottom,
             scale,
-            size
+            size,
+            clip_from_world
         ]
     );
     same_layout!("lit.wgsl", "Object", types::Object, [clip_from_object, world_from_object, normal_from_object]);

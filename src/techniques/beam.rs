@@ -10,7 +10,8 @@
 //! - one-sided operations that clamp, backs counted first, fronts after;
 //! - light is never taken away: the whole picture is lit, and then darkened by a full-screen quad
 //!   where the count is not zero, which sets the count back. So shadowed surfaces keep half of
-//!   *every* light, highlights and all, and where two shadows overlap it is darker than in one.
+//!   *every* light, highlights and all, where two shadows overlap it is darker than in one, and a
+//!   lamp's shadow goes on darkening where its light has ended.
 //!
 //! B draws the quad after each polygon; here it is drawn after each caster, which for convex casters, B's
 //! cubes, is the same picture, and does not cover the screen a thousand times for a sphere.
