@@ -70,7 +70,7 @@ fn geometry(criterion: &mut Criterion) {
     let (mut facing, mut edges) = (Facing::default(), Vec::new());
     group.bench_function("facing", |bencher| bencher.iter(|| facing.decide(&topology, &planes, black_box(lights[0].1))));
     group.bench_function("silhouette from facing", |bencher| bencher.iter(|| silhouette(&topology, &facing, &mut edges)));
-    let (mut scratch, mut out) = (VolumeScratch::default(), Vec::new());
+    let (mut scratch, mut out) = (VolumeScratch::default(), Vec::<u32>::new());
     for (name, light) in lights {
         for (what, parts) in [("facing, silhouette and sides", VolumeParts::SIDES), ("whole volume", VolumeParts::ALL)] {
             group.bench_function(format!("{what}, {name}"), |bencher| {

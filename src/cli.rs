@@ -10,6 +10,7 @@
 
 mod command_line;
 mod counting;
+mod culling;
 mod input;
 mod light_edit;
 mod lighting;
@@ -402,6 +403,8 @@ struct PictureArguments {
     lighting: lighting::LightingArguments,
     #[command(flatten)]
     counting: counting::CountingArguments,
+    #[command(flatten)]
+    culling: culling::CullingArguments,
     /// The graphics adapter: part of its name
     #[arg(long, value_name = "SUBSTRING", allow_hyphen_values = true)]
     adapter: Option<String>,
@@ -424,6 +427,7 @@ impl PictureArguments {
                 smooth_terminator: settings.smooth_terminator,
                 lighting: settings.lighting,
                 counting: settings.counting,
+                culling: settings.culling,
                 adapter: settings.adapter,
                 shaders: settings.shaders,
                 ..Settings::default()
@@ -464,6 +468,7 @@ impl PictureArguments {
         }
         self.lighting.apply(&mut settings.lighting)?;
         self.counting.apply(&mut settings.counting)?;
+        self.culling.apply(&mut settings.culling)?;
         settings.adapter = self.adapter.clone().or(settings.adapter);
         settings.shaders = self.shaders.clone().or(settings.shaders);
         check(&settings)?;

@@ -16,12 +16,14 @@ use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::validate::{Fault, validate};
 use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, Gather, Step, Target};
 use crate::geometry::Aabb;
-use crate::geometry::frustum::{NearPyramid, screen_rect};
+use crate::geometry::ending::ending_plane;
+use crate::geometry::frustum::NearPyramid;
 use crate::scene::area::sequence;
 use crate::scene::pose::pose;
-use crate::scene::{Pose, Sampling, Scene};
+use crate::scene::{LightKind, Pose, Sampling, Scene};
 use crate::settings::{Accumulation, MAX_FRAMES, Settings, Show, Technique, Texturing};
 use crate::techniques::counting::LightCount;
+use crate::techniques::culling::{Audience, Stalls, light_rect};
 use crate::techniques::{self, Caster, counting, labels, show, surfaces, wide};
 
 /// Why a frame cannot be planned: one line each.
@@ -240,6 +242,8 @@ struct Frame<'a> {
     pose: &'a Pose,
     capabilities: &'a Capabilities,
     near_pyramid: NearPyramid,
+    /// Where everything is.
+    stalls: Stalls,
     /// Every surface, and the eye: volumes need not reach farther.
     receivers: Aabb,
     plan: FramePlan,
@@ -278,7 +282,8 @@ impl<'a> Frame<'a> {
         };
         let near_pyramid = NearPyramid::of(camera.eye, camera.near_rectangle());
         let receivers = scene.bounds(pose).union(&Aabb::around(camera.eye, camera.eye));
-        Self { settings, scene, pose, capabilities, near_pyramid, receivers, plan }
+        let stalls = Stalls::new(scene, pose, &plan.views[0]);
+        Self { settings, scene, pose, capabilities, near_pyramid, stalls, receivers, plan }
     }
 
     fn whole(&self) -> [u32; 4] {
@@ -321,13 +326,11 @@ impl<'a> Frame<'a> {
         self.push(show::background(whole));
     }
 
-    /// The pixels a light can reach (L "Scissor Optimization"); `None` where its range is off screen.
+    /// The pixels a light can reach; `None` where its bounds are off screen.
     fn light_rect(&self, light: usize) -> Option<[u32; 4]> {
-        let light = &self.pose.lights[light];
-        if !light.range.is_finite() {
-            return Some(self.whole());
-        }
-        screen_rect(light.position, light.range, &self.plan.views[0].camera.clip_from_world(), self.plan.size)
+        let clip_from_world = self.plan.views[0].camera.clip_from_world();
+        let bounds = self.settings.culling.light_bounds;
+        light_rect(&self.pose.lights[light], bounds, self.settings.show.into(), &clip_from_world, self.plan.size)
     }
 
     /// Which instances lie, at least in part, within a light's range.
@@ -382,31 +385,47 @@ impl<'a> Frame<'a> {
     /// What casts shadows before a light, and the pixels it is counted in; `None` where nothing is.
     fn casters(&self, light: usize) -> Option<(Vec<Caster<'_>>, [u32; 4])> {
         let posed = &self.pose.lights[light];
-        // The stencil is shown everywhere, so it is counted everywhere; light is added in range only.
-        let everywhere = matches!(self.settings.show, Show::Stencil | Show::Overflow);
-        let rect = if everywhere { Some(self.whole()) } else { self.light_rect(light) };
-        let scissor = rect.filter(|_| posed.shadows)?;
+        let scissor = self.light_rect(light).filter(|_| posed.shadows)?;
         let view = &self.plan.views[0];
+        let culling = self.settings.culling;
+        let interest = self.settings.show.into();
+        let audience = Audience::new(posed, &self.stalls, view, interest, culling.on, scissor, self.plan.size);
+        let within = audience.receivers_within(&self.receivers, view.camera.eye);
         let casters: Vec<_> = self
             .scene
             .instances()
             .enumerate()
             .filter(|(_, (_, node, mesh))| node.casts_shadow && !mesh.indices.is_empty())
             .filter(|(_, (_, _, mesh))| mesh.primitives.iter().any(|primitive| primitive.casts_shadow))
-            .map(|(instance, (node_index, node, mesh))| Caster {
-                capabilities: self.capabilities,
-                scene: self.scene,
-                pose: self.pose,
-                view,
-                near_pyramid: &self.near_pyramid,
-                instance,
-                node_index,
-                node,
-                mesh,
-                light: posed,
-                receivers: &self.receivers,
-                eye_count: OnceCell::new(),
-                cutout: OnceCell::new(),
+            .map(|(instance, (node_index, node, mesh))| {
+                let world_from_object = self.pose.world_from_object[node_index];
+                let bounds = self.pose.bounds(self.scene, node_index);
+                let corners = bounds.corners().map(|corner| world_from_object.transform_point3(corner));
+                let ends_on = |within| match posed.kind {
+                    LightKind::Directional => None,
+                    // The far plane is to show what it does to volumes without end.
+                    _ if view.camera.far.is_some() => None,
+                    _ => ending_plane(posed.position, corners, within),
+                };
+                let end = ends_on(&within).or_else(|| ends_on(&self.receivers));
+                let in_range = bounds.transformed(&world_from_object).distance_to(posed.position) <= posed.range;
+                Caster {
+                    capabilities: self.capabilities,
+                    scene: self.scene,
+                    pose: self.pose,
+                    view,
+                    near_pyramid: &self.near_pyramid,
+                    instance,
+                    node_index,
+                    node,
+                    mesh,
+                    light: posed,
+                    sight: audience.sight(instance, &corners, in_range, end),
+                    end,
+                    receivers: &self.receivers,
+                    eye_count: OnceCell::new(),
+                    cutout: OnceCell::new(),
+                }
             })
             .collect();
         Some((casters, scissor))
@@ -418,6 +437,7 @@ impl<'a> Frame<'a> {
             capabilities: self.capabilities,
             light,
             scissor,
+            apart: self.settings.culling.caster_scissors,
             samples: self.plan.samples,
             budget: self.plan.budget,
             overflow: counting.overflow,

@@ -4,9 +4,11 @@
 //! wgpu nor egui, and nothing flows back into it from the renderer.
 
 mod counting;
+mod culling;
 mod lighting;
 
 pub use counting::{Counting, MAX_COUNT_BITS, Overflow};
+pub use culling::{Culling, LightBounds};
 pub use lighting::{Accumulation, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
 
 use std::collections::BTreeMap;
@@ -59,6 +61,8 @@ pub struct Settings {
     pub lights: BTreeMap<usize, LightEdit>,
     /// How the frame's light comes together.
     pub lighting: Lighting,
+    /// What is left out of counting shadows.
+    pub culling: Culling,
     /// Part of the name of the adapter to use.
     pub adapter: Option<String>,
     /// Shaders are read from here instead of the program, and again when they change.
@@ -86,6 +90,7 @@ impl Default for Settings {
             exposure: 0.0,
             lights: BTreeMap::new(),
             lighting: Lighting::default(),
+            culling: Culling::default(),
             adapter: None,
             shaders: None,
         }
@@ -218,6 +223,8 @@ named! {
         ZFail = "z-fail",
         /// Sides only, counted from the eye's own count, exact at the near plane.
         ExactZPass = "exact-z-pass",
+        /// Each caster by the cheapest form that is exact for it.
+        Auto = "auto",
         /// Z-fail in a float target.
         Wide = "wide",
         /// Z-pass whose near plane is counted first.

@@ -118,7 +118,7 @@ impl Bench {
 
 /// A panel tall enough to show every section without scrolling.
 fn open(bench: Bench) -> Harness<'static, Bench> {
-    let builder = Harness::builder().with_size(vec2(1280.0, 2400.0)).with_context_setup(style::install);
+    let builder = Harness::builder().with_size(vec2(1280.0, 2800.0)).with_context_setup(style::install);
     let mut harness = builder.build_ui_state(|ui, bench: &mut Bench| bench.pass(ui), bench);
     harness.run_steps(3);
     harness

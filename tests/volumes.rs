@@ -128,10 +128,20 @@ fn a_cube_has_the_silhouettes_one_knows() {
 }
 
 #[test]
+fn short_indices_are_the_long_ones() {
+    let shape = Shape::new(cube());
+    let light = Vec4::new(3.0, 5.0, -7.0, 1.0);
+    let (mut long, mut short, mut scratch) = (Vec::<u32>::new(), Vec::<u16>::new(), VolumeScratch::default());
+    let ranges = scratch.append(shape.caster(), light, VolumeParts::ALL, &mut long);
+    assert_eq!(scratch.append(shape.caster(), light, VolumeParts::ALL, &mut short), ranges);
+    assert_eq!(short.iter().map(|&index| u32::from(index)).collect::<Vec<_>>(), long);
+}
+
+#[test]
 fn parts_are_appended_and_only_those_asked_for() {
     let shape = Shape::new(cube());
     let light = Vec4::new(3.0, 5.0, -7.0, 1.0);
-    let (mut indices, mut scratch) = (vec![7, 7, 7], VolumeScratch::default());
+    let (mut indices, mut scratch) = (vec![7u32, 7, 7], VolumeScratch::default());
     let sides = scratch.append(shape.caster(), light, VolumeParts::SIDES, &mut indices);
     assert_eq!((sides.sides.clone(), sides.triangles()), (3..39, 12));
     assert!(sides.light_cap_kept.is_empty() && sides.light_cap_turned.is_empty() && sides.dark_cap.is_empty());

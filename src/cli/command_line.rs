@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{counting as counting_options, light_edit, lighting as lighting_options, needs_dot};
+use super::{counting as counting_options, culling as culling_options, light_edit, lighting as lighting_options, needs_dot};
 use crate::scene::AnimationChoice;
 use crate::settings::{CameraChoice, SceneChoice, Settings};
 
@@ -34,6 +34,7 @@ pub fn render_command(settings: &Settings) -> String {
         lights,
         lighting,
         counting,
+        culling,
         adapter,
         shaders,
     } = settings;
@@ -104,6 +105,7 @@ pub fn render_command(settings: &Settings) -> String {
     }
     lighting_options::write(lighting, &mut line);
     counting_options::write(counting, &mut line);
+    culling_options::write(culling, &mut line);
     if let Some(adapter) = adapter {
         line.option("--adapter", adapter);
     }

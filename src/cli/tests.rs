@@ -10,7 +10,8 @@ use proptest::prelude::*;
 use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
 use crate::settings::{
-    Accumulation, Counting, Lighting, MAX_AREA_SAMPLES, MAX_COUNT_BITS, MAX_FRAMES, Overflow, SlideChoice, Texturing,
+    Accumulation, Counting, Culling, LightBounds, Lighting, MAX_AREA_SAMPLES, MAX_COUNT_BITS, MAX_FRAMES, Overflow, SlideChoice,
+    Texturing,
 };
 
 fn command(line: &str) -> Result<Command, InputError> {
@@ -48,7 +49,7 @@ fn every_argument_reaches_its_setting() {
          --eye -1,2.5,3e2 --target 0,0,-1 --fov 33.5 --far 7.5 --time 1.25 --animation 3 --floor --exposure -1.5 \
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --light-sample 3 --accumulate 256 \
-         --accumulation 8-bit --texturing once --labels \
+         --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors \
          --light-edit 1:on=true --adapter llvm --shaders wgsl",
     );
     let edit = LightEdit {
@@ -87,6 +88,7 @@ fn every_argument_reaches_its_setting() {
             texturing: Texturing::Once,
             labels: true,
         },
+        culling: Culling { on: false, light_bounds: LightBounds::Sphere, caster_scissors: true },
         adapter: Some("llvm".into()),
         shaders: Some("wgsl".into()),
     };
@@ -356,10 +358,13 @@ fn any_settings() -> impl Strategy<Value = Settings> {
                 labels,
             })
         });
+    let culling = (any::<bool>(), prop::sample::select(&LightBounds::ALL[..]), any::<bool>())
+        .prop_map(|(on, light_bounds, caster_scissors)| Culling { on, light_bounds, caster_scissors });
     let rest = (
         prop::collection::btree_map(any::<usize>(), any_edit(), 0..4),
         lighting,
         (1..=MAX_COUNT_BITS, prop::sample::select(&Overflow::ALL[..])).prop_map(|(bits, overflow)| Counting { bits, overflow }),
+        culling,
         prop::option::of(word()),
         prop::option::of(word().prop_filter("a folder", |path| !path.is_empty()).prop_map(PathBuf::from)),
         prop::option::of(prop::sample::select(&Failure::ALL[..])),
@@ -368,7 +373,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         |(
             (scene, floor, technique, show, light, size, samples),
             (camera, fov, far, time, animation, smooth_terminator, exposure),
-            (lights, lighting, counting, adapter, shaders, failure),
+            (lights, lighting, counting, culling, adapter, shaders, failure),
         )| Settings {
             scene,
             floor,
@@ -388,6 +393,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             exposure,
             lights,
             lighting,
+            culling,
             adapter,
             shaders,
         },

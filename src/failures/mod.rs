@@ -24,7 +24,7 @@ use std::borrow::Cow;
 
 use crate::frame::FramePlan;
 use crate::scene::AnimationChoice;
-use crate::settings::{Counting, Failure, Overflow, SceneChoice, Settings, Show, Technique};
+use crate::settings::{Counting, Culling, Failure, Overflow, SceneChoice, Settings, Show, Technique};
 
 pub use rows::TABLE;
 
@@ -88,6 +88,8 @@ pub fn while_on(settings: &Settings) -> Cow<'_, Settings> {
     match settings.failure {
         Some(failure) => Cow::Owned(Settings {
             technique: row(failure).technique,
+            // What is wrong on purpose is not left out for meeting nothing.
+            culling: Culling { on: false, ..settings.culling },
             counting: Counting { overflow: Overflow::Naive, ..settings.counting },
             ..settings.clone()
         }),

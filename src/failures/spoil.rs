@@ -3,7 +3,7 @@
 use crate::frame::state::{Compare, Depth, DepthBias, NearPlane};
 use crate::frame::stencil::{StencilFace, StencilOp};
 use crate::frame::validate::Rule;
-use crate::frame::{Action, Draw, DrawSet, FramePlan, Method, Part, Program};
+use crate::frame::{Action, Draw, DrawSet, FramePlan, Method, Part, Program, VolumePart};
 use crate::geometry::Flaw;
 
 /// The technique that counts, or the count that overflows, is the failure; the plan is as it was made.
@@ -94,7 +94,9 @@ pub(super) fn offset(plan: &mut FramePlan) {
 /// depth to the last bit.
 fn compare_light_caps(plan: &mut FramePlan) {
     for draw in counting(plan) {
-        if draw.state.depth.compare == Compare::Never {
+        let dark = |part: &VolumePart| part.part == Part::DarkCap;
+        let dark = matches!(&draw.set, DrawSet::Volumes(parts) if parts.iter().any(dark));
+        if draw.state.depth.compare == Compare::Never && !dark {
             draw.state.depth = Depth::NEARER;
         }
     }

@@ -196,6 +196,17 @@ impl Camera {
         through_light(light.into(), self.near_plane(), self.near, &self.clip_from_world())
     }
 
+    /// The part of the near rectangle that some pixels (x, y, width, height from the top left) of a
+    /// picture of `size` see, in world space, around.
+    #[must_use]
+    pub fn near_rectangle_of(&self, [x, y, width, height]: [u32; 4], size: [u32; 2]) -> [DVec3; 4] {
+        let [left_bottom, right_bottom, _, left_top] = self.near_rectangle();
+        let (across, down) = (right_bottom - left_bottom, left_bottom - left_top);
+        let share = |pixel: u32, whole: u32| f64::from(pixel) / f64::from(whole.max(1));
+        let corner = |x: u32, y: u32| left_top + across * share(x, size[0]) + down * share(y, size[1]);
+        [corner(x, y + height), corner(x + width, y + height), corner(x + width, y), corner(x, y)]
+    }
+
     /// What every vertex shader's matrices are made from.
     #[must_use]
     pub fn clip_from_world(&self) -> DMat4 {

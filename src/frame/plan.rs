@@ -6,11 +6,11 @@ use serde::Serialize;
 use super::camera::Camera;
 use super::state::Winding;
 use super::stencil::BitBudget;
-use super::step::{Action, Draw, Step};
+use super::step::{Action, Draw, Part, Step};
 use super::validate::Rule;
-use crate::geometry::Flaw;
 use crate::geometry::cutout::{CutoutPlane, Throw};
 use crate::geometry::volume::Outline;
+use crate::geometry::{Flaw, VolumeParts};
 use crate::settings::Accumulation;
 
 /// Everything that one frame does, in order: ids and values only.
@@ -86,6 +86,12 @@ pub struct VolumePlan {
     pub method: Method,
     /// Why so.
     pub reason: Reason,
+    /// M's case; none where nothing is drawn.
+    pub case: Option<Case>,
+    /// The parts that may be on screen: others are not drawn, whatever the method asks for.
+    pub parts: VolumeParts,
+    /// The pixels (x, y, width, height from the top left) where it may hold a surface that matters.
+    pub rect: [u32; 4],
     /// How many of this caster's volumes hold the eye, where the method needs to know.
     pub holds_eye: i32,
     /// What has sides: the caster's silhouette, or each of its polygons.
@@ -103,6 +109,68 @@ pub struct VolumePlan {
     /// How it is built wrongly, where it is so on purpose.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flaw: Option<Flaw>,
+}
+
+impl VolumePlan {
+    /// Whether a part need be drawn. Z-fail counts what is on screen and behind the surface; other
+    /// methods know themselves what they draw.
+    #[must_use]
+    pub const fn shows(&self, part: Part) -> bool {
+        if self.cutout.is_some() || self.extrusion.is_some() || !matches!(self.method, Method::ZFail | Method::ZFailCompared) {
+            return true;
+        }
+        match part {
+            Part::Sides | Part::SidesTurned => self.parts.sides,
+            Part::LightCapKept | Part::LightCapTurned => self.parts.light_cap,
+            Part::DarkCap => self.parts.dark_cap,
+        }
+    }
+
+    /// The pixels where it must be counted, of those that are its light's. Where the stencil starts
+    /// with this volume counted, all of them: elsewhere nothing would take it away again.
+    #[must_use]
+    pub const fn scissor(&self, of_light: [u32; 4]) -> [u32; 4] {
+        let adds_nothing_elsewhere = match self.method {
+            Method::ZPass | Method::ZFail | Method::ZFailCompared => true,
+            Method::ExactZPass => self.holds_eye == 0,
+            _ => false,
+        };
+        if self.cutout.is_none() && self.extrusion.is_none() && adds_nothing_elsewhere { self.rect } else { of_light }
+    }
+}
+
+/// M's three cases (M section 7, figure 4), by the caster's box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Case {
+    /// It throws no shadow on the near rectangle, or on the way there from the eye.
+    One,
+    /// It may throw a shadow there, and is itself out of view.
+    Two,
+    /// It may throw a shadow there, and is itself in view.
+    Three,
+}
+
+impl Case {
+    /// 1, 2 or 3.
+    #[must_use]
+    pub const fn number(self) -> u8 {
+        match self {
+            Self::One => 1,
+            Self::Two => 2,
+            Self::Three => 3,
+        }
+    }
+
+    /// One sentence for people.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::One => "it throws no shadow on the near rectangle: sides alone will do",
+            Self::Two => "it may shade the near rectangle, and is out of view: sides and dark cap",
+            Self::Three => "it may shade the near rectangle, and is in view: sides and both caps",
+        }
+    }
 }
 
 /// A cut-out that a volume is thrown from, in the caster's object space.
@@ -146,6 +214,22 @@ pub enum Method {
     Dropped,
 }
 
+impl Method {
+    /// A word or two for people.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::ZPass => "z-pass",
+            Self::ExactZPass => "exact z-pass",
+            Self::ZFail => "z-fail",
+            Self::ZFailCompared => "z-fail, compared",
+            Self::ZPlus => "ZP+",
+            Self::ZPlusMirrored => "ZP+, mirrored",
+            Self::Dropped => "left out",
+        }
+    }
+}
+
 /// Why a volume is counted as it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -181,6 +265,14 @@ pub enum Reason {
     Flattened,
     /// The light stands in the caster, or so near that it cannot be projected on one plane.
     LightTooNear,
+    /// The caster lies wholly outside the light's cone.
+    OutOfCone,
+    /// The volume lies wholly out of view.
+    OutOfView,
+    /// The volume holds no surface that is lit and in view.
+    ReachesNothing,
+    /// The caster throws no shadow on the near rectangle.
+    NearPlaneClear,
 }
 
 impl Reason {
@@ -203,6 +295,10 @@ impl Reason {
             Self::LightInPlane => "the light looks along the cut-out's plane",
             Self::Flattened => "the caster was flattened into a cut-out",
             Self::LightTooNear => "the light is too near to flatten the caster",
+            Self::OutOfCone => "the caster lies outside the light's cone",
+            Self::OutOfView => "its shadow is out of view",
+            Self::ReachesNothing => "its shadow meets no surface that is lit and in view",
+            Self::NearPlaneClear => "it throws no shadow on the near plane",
         }
     }
 }

@@ -181,8 +181,11 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
             }
             let light_cap = matches!(part.part, Part::LightCapKept | Part::LightCapTurned);
             let never = draw.state.depth.compare == Compare::Never;
-            if never != (light_cap && volume.method == Method::ZFail) {
-                return Err("depth compare Never is for light caps whose surface is surely there, and for nothing else");
+            let hidden = light_cap && volume.method == Method::ZFail;
+            if never != hidden && !(never && part.part == Part::DarkCap) {
+                return Err(
+                    "depth compare Never is for dark caps and for light caps whose surface is surely there, and for nothing else",
+                );
             }
             if volume.method == Method::Dropped {
                 return Err("it counts a volume that was dropped");

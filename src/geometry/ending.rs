@@ -34,7 +34,8 @@ pub const NEVER_ENDS: DVec4 = DVec4::new(0.0, 0.0, 0.0, -1.0);
 
 /// The face of `within` (grown by a thousandth of its size) on which the volume of a caster with the
 /// corners `caster` thrown by a point light ends soonest, as outward normal and offset (`n.x + w =
-/// 0` on the plane); `None` where no face serves. All in world space; the caster lies in the box.
+/// 0` on the plane); `None` where no face serves. All in world space. Faces that the caster
+/// reaches beyond do not serve.
 #[must_use]
 pub fn ending_plane(light: DVec3, caster: [DVec3; 8], within: &Aabb) -> Option<DVec4> {
     /// Rays nearly along a face would end very far away: not worth it.
@@ -49,16 +50,19 @@ pub fn ending_plane(light: DVec3, caster: [DVec3; 8], within: &Aabb) -> Option<D
         let normal = axis * outward;
         let height = normal.dot(if outward > 0.0 { max } else { min });
         let above = height - normal.dot(light);
-        let (mut steepest, mut gentle) = (f64::INFINITY, f64::INFINITY);
+        let (mut steepest, mut gentle, mut farthest) = (f64::INFINITY, f64::INFINITY, 0.0f64);
         for corner in caster {
             let ray = corner - light;
             let towards = normal.dot(ray);
             steepest = steepest.min(towards);
             gentle = gentle.min(towards / ray.length());
+            farthest = farthest.max(towards);
         }
         // How many times a ray's way to the caster it is to the plane, at worst.
         let stretch = above / steepest;
-        if above > 0.0 && gentle > LEAST_SLOPE && stretch > 1.0 && best.is_none_or(|(least, _)| stretch < least) {
+        // All of the caster lies before the plane, and by more than rounding.
+        let before = above > farthest + 0.5 * margin;
+        if before && gentle > LEAST_SLOPE && best.is_none_or(|(least, _)| stretch < least) {
             best = Some((stretch, normal.extend(-height)));
         }
     }

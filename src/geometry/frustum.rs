@@ -5,7 +5,7 @@
 
 use glam::{DAffine3, DMat4, DVec2, DVec3, DVec4};
 
-use super::Aabb;
+use super::{Aabb, Body};
 
 /// The convex hull of the eye and the near rectangle: what the near plane cuts off the view.
 ///
@@ -16,53 +16,21 @@ use super::Aabb;
 ///              \/    seen from inside, and its surface is missing from the depth buffer
 ///             eye
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NearPyramid {
-    /// The eye, then the rectangle.
-    points: [DVec3; 5],
-    /// Outward normals (not unit; zero for faces without area) with a point on the face.
-    faces: [(DVec3, DVec3); 5],
-}
+#[derive(Debug, Clone, PartialEq)]
+pub struct NearPyramid(Body);
 
 impl NearPyramid {
     /// From the eye and the corners of the near rectangle, in order around it, world space.
     #[must_use]
-    pub fn of(eye: DVec3, [a, b, c, d]: [DVec3; 4]) -> Self {
-        let inside = (eye + (a + b + c + d) / 4.0) / 2.0;
-        let outward = |on: DVec3, along: DVec3, across: DVec3| {
-            let normal = (along - on).cross(across - on).normalize_or_zero();
-            (if normal.dot(inside - on) > 0.0 { -normal } else { normal }, on)
-        };
-        let faces = [outward(eye, a, b), outward(eye, b, c), outward(eye, c, d), outward(eye, d, a), outward(a, b, c)];
-        Self { points: [eye, a, b, c, d], faces }
+    pub fn of(eye: DVec3, near_rectangle: [DVec3; 4]) -> Self {
+        Self(Body::pyramid(eye.extend(1.0), near_rectangle))
     }
 
     /// Whether the box `bounds` of an object's space may reach into the pyramid. May say yes
-    /// wrongly, never no: only the faces of pyramid and box are tried as separating planes, with
-    /// room for the rounding of single precision.
+    /// wrongly, never no.
     #[must_use]
     pub fn may_touch(&self, bounds: &Aabb, world_from_object: &DAffine3) -> bool {
-        const ROUNDING: f64 = 1e-5;
-        if bounds.is_empty() {
-            return false;
-        }
-        let corners = bounds.corners().map(|corner| world_from_object.transform_point3(corner));
-        let size = corners.iter().chain(&self.points).fold(DVec3::ZERO, |largest, point| largest.max(point.abs())).max_element();
-        let room = ROUNDING * size;
-        let beyond = |(normal, on): &(DVec3, DVec3)| corners.iter().all(|corner| normal.dot(*corner - *on) > room);
-        if self.faces.iter().any(beyond) {
-            return false;
-        }
-        // The box's own faces, in the world: its corners differ by one axis each.
-        let center = (corners[0] + corners[7]) / 2.0;
-        let axes = [1, 2, 4].map(|corner| (corners[corner] - corners[0]) / 2.0);
-        let past = |axis: usize| {
-            let normal = axes[(axis + 1) % 3].cross(axes[(axis + 2) % 3]).normalize_or_zero();
-            let half = normal.dot(axes[axis]).abs() + room;
-            let along = self.points.map(|point| normal.dot(point - center));
-            along.iter().all(|along| *along > half) || along.iter().all(|along| *along < -half)
-        };
-        !(0..3).any(past)
+        self.0.may_meet(&Body::boxed(bounds, world_from_object))
     }
 }
 
@@ -91,10 +59,36 @@ pub fn screen_rect(center: DVec3, radius: f64, clip_from_world: &DMat4, size: [u
         let (Some([left, right]), Some([bottom, top])) = (x, y) else { return whole };
         (DVec2::new(left, bottom), DVec2::new(right, top))
     } else {
-        cube_edges(center, radius, clip_from_world)?
+        return hull_rect(cube(center, radius), clip_from_world, size);
     };
-    if !(min.is_finite() && max.is_finite()) {
-        return whole;
+    pixels(min, max, size)
+}
+
+/// The corners of the cube about a sphere (M's box about a light), homogeneous.
+pub fn cube(center: DVec3, radius: f64) -> impl Iterator<Item = DVec4> + Clone {
+    (0..8).map(move |corner| {
+        let side = |bit: usize| if corner & bit == 0 { -radius } else { radius };
+        (center + DVec3::new(side(1), side(2), side(4))).extend(1.0)
+    })
+}
+
+/// The pixels, as [`screen_rect`] gives them, that may see any of a convex body: the hull of places
+/// (w = 1) and of directions in which it goes on for ever (w = 0), clipped at the near plane and
+/// projected (M section 6, lines 5 and 6 of its listing).
+#[must_use]
+pub fn hull_rect(hull: impl Iterator<Item = DVec4> + Clone, clip_from_world: &DMat4, size: [u32; 2]) -> Option<[u32; 4]> {
+    let clip = hull.map(|place| *clip_from_world * place);
+    if clip.clone().any(|place| !place.is_finite()) {
+        return Some([0, 0, size[0], size[1]]);
+    }
+    let (min, max) = projected(clip)?;
+    pixels(min, max, size)
+}
+
+/// The pixels between two corners in clip space; one too many on each side.
+fn pixels(min: DVec2, max: DVec2, size: [u32; 2]) -> Option<[u32; 4]> {
+    if min.is_nan() || max.is_nan() {
+        return Some([0, 0, size[0], size[1]]);
     }
     let size = DVec2::new(size[0].into(), size[1].into());
     let to_pixels = |clip: DVec2| (DVec2::new(clip.x, -clip.y) * 0.5 + 0.5) * size;
@@ -122,24 +116,29 @@ fn tangents(row: DVec4, w: DVec4, center: DVec4, radius: f64) -> Option<[f64; 2]
     Some([(-half_b - root) / a, (-half_b + root) / a])
 }
 
-/// The smallest and largest x / w and y / w of the cube about a sphere, where it is not behind the
-/// near plane; `None` where all of it is.
-fn cube_edges(center: DVec3, radius: f64, clip_from_world: &DMat4) -> Option<(DVec2, DVec2)> {
-    let corners: [DVec4; 8] = std::array::from_fn(|corner| {
-        let side = |bit: usize| if corner & bit == 0 { -radius } else { radius };
-        *clip_from_world * (center + DVec3::new(side(1), side(2), side(4))).extend(1.0)
-    });
-    let before = |clip: &DVec4| clip.w - clip.z;
-    let mut points: Vec<DVec4> = corners.iter().filter(|corner| before(corner) >= 0.0).copied().collect();
-    for (low, bit) in (0..8).flat_map(|corner| [1, 2, 4].map(|bit| (corner, bit))).filter(|(corner, bit)| corner & bit == 0) {
-        let (a, b) = (corners[low], corners[low | bit]);
-        if (before(&a) >= 0.0) != (before(&b) >= 0.0) {
-            points.push(a + (b - a) * (before(&a) / (before(&a) - before(&b))));
+/// The smallest and largest x / w and y / w of a hull in clip space, where it is not before the near
+/// plane; `None` where all of it is. They may be infinite.
+fn projected(hull: impl Iterator<Item = DVec4> + Clone) -> Option<(DVec2, DVec2)> {
+    let beyond = |clip: &DVec4| clip.w - clip.z;
+    let mut bounds: Option<(DVec2, DVec2)> = None;
+    let mut take = |clip: DVec4| {
+        let point = DVec2::new(clip.x, clip.y) / clip.w;
+        let (min, max) = bounds.unwrap_or((DVec2::INFINITY, DVec2::NEG_INFINITY));
+        // 0 / 0, a direction straight along the eye's plane, bounds nothing on that axis.
+        let open = point.is_nan_mask();
+        bounds = Some((
+            min.min(DVec2::select(open, DVec2::NEG_INFINITY, point)),
+            max.max(DVec2::select(open, DVec2::INFINITY, point)),
+        ));
+    };
+    for (index, a) in hull.clone().enumerate() {
+        if beyond(&a) >= 0.0 {
+            take(a);
+        }
+        // Every edge of the hull, and lines through it, which do no harm.
+        for b in hull.clone().skip(index + 1).filter(|b| (beyond(b) >= 0.0) != (beyond(&a) >= 0.0)) {
+            take(a + (b - a) * (beyond(&a) / (beyond(&a) - beyond(&b))));
         }
     }
-    let projected = points.iter().map(|clip| DVec2::new(clip.x, clip.y) / clip.w);
-    projected.fold(None, |held: Option<(DVec2, DVec2)>, point| {
-        let (min, max) = held.unwrap_or((point, point));
-        Some((min.min(point), max.max(point)))
-    })
+    bounds
 }

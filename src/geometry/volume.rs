@@ -111,6 +111,33 @@ impl VolumeIndices {
     }
 }
 
+/// How an index is stored. Two bytes are enough for casters of up to 32768 welded vertices, so that a
+/// triangle takes 6 bytes (M section 7) instead of 12.
+pub trait VolumeIndex: Copy {
+    /// How many vertices it can tell apart.
+    const LIMIT: usize;
+
+    /// A vertex's number, which is below [`Self::LIMIT`].
+    fn of(vertex: u32) -> Self;
+}
+
+impl VolumeIndex for u16 {
+    const LIMIT: usize = 1 << 16;
+
+    #[expect(clippy::cast_possible_truncation, reason = "the caller asks LIMIT first")]
+    fn of(vertex: u32) -> Self {
+        vertex as Self
+    }
+}
+
+impl VolumeIndex for u32 {
+    const LIMIT: usize = 1 << 32;
+
+    fn of(vertex: u32) -> Self {
+        vertex
+    }
+}
+
 /// Memory that volumes are built in, kept from one to the next.
 #[derive(Debug, Clone, Default)]
 pub struct VolumeScratch {
@@ -136,18 +163,24 @@ impl VolumeScratch {
     /// Appends the volume that `caster` and `light` (object space: a point with w = 1, the
     /// direction towards a directional light with w = 0) span to `indices`, which count
     /// 2 V vertices: V welded ones, then V extruded.
-    pub fn append(&mut self, caster: Caster, light: Vec4, parts: VolumeParts, indices: &mut Vec<u32>) -> VolumeIndices {
+    pub fn append<I: VolumeIndex>(
+        &mut self,
+        caster: Caster,
+        light: Vec4,
+        parts: VolumeParts,
+        indices: &mut Vec<I>,
+    ) -> VolumeIndices {
         self.append_with(caster, light, parts, false, indices)
     }
 
     /// The same, built wrongly in the way that `flaw` says.
-    pub fn append_flawed(
+    pub fn append_flawed<I: VolumeIndex>(
         &mut self,
         flaw: Flaw,
         caster: Caster,
         light: Vec4,
         parts: VolumeParts,
-        indices: &mut Vec<u32>,
+        indices: &mut Vec<I>,
     ) -> VolumeIndices {
         let Some(topology) = flaw.topology(caster.topology, caster.welded) else {
             return self.append_with(caster, light, parts, flaw == Flaw::FanAcross, indices);
@@ -157,13 +190,13 @@ impl VolumeScratch {
         self.append_with(Caster { topology: &topology, planes: &planes, ..caster }, light, parts, false, indices)
     }
 
-    fn append_with(
+    fn append_with<I: VolumeIndex>(
         &mut self,
         caster: Caster,
         light: Vec4,
         parts: VolumeParts,
         always_fan: bool,
-        indices: &mut Vec<u32>,
+        indices: &mut Vec<I>,
     ) -> VolumeIndices {
         let Caster { topology, welded, planes, .. } = caster;
         self.facing.decide(topology, planes, light);
@@ -182,7 +215,7 @@ impl VolumeScratch {
 
         let mut ranges = VolumeIndices::default();
         let mut start = indices.len();
-        let mut since = |indices: &Vec<u32>| {
+        let mut since = |indices: &Vec<I>| {
             let range = start as u32..indices.len() as u32;
             start = indices.len();
             range
@@ -190,17 +223,18 @@ impl VolumeScratch {
         if parts.sides {
             for (edges, range) in [(&self.edges, &mut ranges.sides), (&self.turned, &mut ranges.sides_turned)] {
                 if to_one_point {
-                    indices.extend(edges.iter().flat_map(|&[a, b]| [a, extruded(a), b]));
+                    indices.extend(edges.iter().flat_map(|&[a, b]| [a, extruded(a), b]).map(I::of));
                 } else {
-                    indices.extend(edges.iter().flat_map(|&[a, b]| [a, extruded(a), extruded(b), a, extruded(b), b]));
+                    let quads = edges.iter().flat_map(|&[a, b]| [a, extruded(a), extruded(b), a, extruded(b), b]);
+                    indices.extend(quads.map(I::of));
                 }
                 *range = since(indices);
             }
         }
         if parts.light_cap {
-            indices.extend(self.counted(topology, 1).flatten());
+            indices.extend(self.counted(topology, 1).flatten().map(I::of));
             ranges.light_cap_kept = since(indices);
-            indices.extend(self.counted(topology, -1).flatten());
+            indices.extend(self.counted(topology, -1).flatten().map(I::of));
             ranges.light_cap_turned = since(indices);
         }
         if dark_cap {
@@ -211,11 +245,11 @@ impl VolumeScratch {
                             && within_half_space(welded, caster.bounds, light.truncate(), &self.edges) =>
                 {
                     let apart = self.edges.iter().filter(|edge| !edge.contains(&pivot));
-                    indices.extend(apart.flat_map(|&[a, b]| [pivot, b, a]).map(extruded));
+                    indices.extend(apart.flat_map(|&[a, b]| [pivot, b, a]).map(extruded).map(I::of));
                 }
                 _ => {
-                    indices.extend(self.counted(topology, 1).flat_map(|[a, b, c]| [c, b, a]).map(extruded));
-                    indices.extend(self.counted(topology, -1).flatten().map(extruded));
+                    indices.extend(self.counted(topology, 1).flat_map(|[a, b, c]| [c, b, a]).map(extruded).map(I::of));
+                    indices.extend(self.counted(topology, -1).flatten().map(extruded).map(I::of));
                 }
             }
             ranges.dark_cap = since(indices);

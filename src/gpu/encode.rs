@@ -280,14 +280,20 @@ impl Encode<'_> {
         parts: &[VolumePart],
         drawn: &mut Drawn,
     ) {
-        let Some(indices) = self.frame.indices.buffer() else { return };
-        pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+        let (Some(long), Some(short)) = (self.frame.indices.buffer(), self.frame.short_indices.buffer()) else { return };
         let instances: Vec<_> = scene.instances().collect();
         let mut bound = None;
+        let mut bound_format = None;
         for part in parts {
-            let range = range_of(&self.frame.volume_indices[part.volume], part.part);
+            let (indices, format) = &self.frame.volume_indices[part.volume];
+            let range = range_of(indices, part.part);
             if range.is_empty() {
                 continue;
+            }
+            if bound_format != Some(*format) {
+                let buffer = if *format == wgpu::IndexFormat::Uint16 { short } else { long };
+                pass.set_index_buffer(buffer.slice(..), *format);
+                bound_format = Some(*format);
             }
             let first_vertex = self.frame.first_vertices[part.volume];
             let instance = plan.volumes[part.volume].instance;

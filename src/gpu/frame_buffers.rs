@@ -11,7 +11,7 @@ use super::types::{Draw, Frame, Light, Object, Volume};
 use crate::frame::{DrawSet, FramePlan, Method, Part};
 use crate::geometry::ending::NEVER_ENDS;
 use crate::geometry::light_in_object;
-use crate::geometry::volume::{Caster, VolumeIndices, VolumeParts, VolumeScratch};
+use crate::geometry::volume::{Caster, VolumeIndex as _, VolumeIndices, VolumeParts, VolumeScratch};
 use crate::scene::{LightKind, Pose, PosedLight, Scene};
 use crate::settings::Accumulation;
 
@@ -25,10 +25,12 @@ pub struct FrameBuffers {
     lights: Growing,
     volumes: Growing,
     draws: Growing,
-    /// Indices of all volumes, `u32`.
+    /// Indices of volumes of large casters, `u32`.
     pub indices: Growing,
-    /// Where each planned volume's parts stand among them.
-    pub volume_indices: Vec<VolumeIndices>,
+    /// Indices of all other volumes, `u16`.
+    pub short_indices: Growing,
+    /// Where each planned volume's parts stand among which of them.
+    pub volume_indices: Vec<(VolumeIndices, wgpu::IndexFormat)>,
     slides: Slides,
     /// Vertices of volumes that are thrown from a flattened silhouette, `Float32x4`.
     pub cutout_vertices: Growing,
@@ -46,6 +48,7 @@ struct Scratch {
     volumes: Vec<Volume>,
     draws: Vec<u8>,
     indices: Vec<u32>,
+    short_indices: Vec<u16>,
     volume: VolumeScratch,
     cutouts: CutoutScratch,
     parts: Vec<Option<VolumeParts>>,
@@ -100,6 +103,7 @@ impl Default for FrameBuffers {
             volumes: Growing::new("volumes", storage),
             draws: Growing::new("draws", uniform),
             indices: Growing::new("volume indices", wgpu::BufferUsages::INDEX),
+            short_indices: Growing::new("short volume indices", wgpu::BufferUsages::INDEX),
             volume_indices: Vec::new(),
             slides: Slides::default(),
             cutout_vertices: Growing::new("cut-out vertices", wgpu::BufferUsages::VERTEX),
@@ -137,7 +141,8 @@ impl FrameBuffers {
         pose: &Pose,
     ) -> Result<(), GpuError> {
         self.build_volumes(buffers, plan, scene, pose);
-        let (bytes, largest) = (self.index_count() * 4, context.device.limits().max_buffer_size);
+        let longest = (self.scratch.indices.len() * 4).max(self.scratch.short_indices.len() * 2);
+        let (bytes, largest) = (longest as u64, context.device.limits().max_buffer_size);
         if bytes > largest {
             let what = format!("its shadow volumes need {} MiB of indices, the device allows {}", bytes >> 20, largest >> 20);
             return Err(GpuError::TooLarge(what));
@@ -164,6 +169,11 @@ impl FrameBuffers {
         grown |= self.draws.write(context, &scratch.draws, DRAW_STRIDE as usize);
         self.indices.write(context, cast_slice(&scratch.indices), 4);
         self.cutout_vertices.write(context, cast_slice(&scratch.cutouts.vertices), 16);
+        // Copies come in fours of bytes; what is one index too long is never drawn.
+        if scratch.short_indices.len() % 2 == 1 {
+            scratch.short_indices.push(0);
+        }
+        self.short_indices.write(context, cast_slice(&scratch.short_indices), 4);
         if grown || self.bind_group.is_none() {
             self.bind_group = self.make_bind_group(context, layout);
         }
@@ -212,6 +222,7 @@ impl FrameBuffers {
             }
         }
         scratch.indices.clear();
+        scratch.short_indices.clear();
         scratch.volumes.clear();
         scratch.cutouts.vertices.clear();
         self.volume_indices.clear();
@@ -237,7 +248,7 @@ impl FrameBuffers {
                 _pad: 0,
             });
             let Some(parts) = *wanted else {
-                self.volume_indices.push(VolumeIndices::default());
+                self.volume_indices.push((VolumeIndices::default(), wgpu::IndexFormat::Uint16));
                 self.first_vertices.push(None);
                 continue;
             };
@@ -248,12 +259,22 @@ impl FrameBuffers {
                 planes: &vertices.planes,
                 bounds: &pose.bounds(scene, node_index),
             };
-            let (indices, first_vertex) = match (&volume.cutout, volume.flaw) {
-                (Some(cutout), _) => scratch.cutouts.append(caster, light, cutout, parts, &mut scratch.indices),
-                (None, None) => (scratch.volume.append(caster, light, parts, &mut scratch.indices), None),
-                (None, Some(flaw)) => (scratch.volume.append_flawed(flaw, caster, light, parts, &mut scratch.indices), None),
+            const SHORT: wgpu::IndexFormat = wgpu::IndexFormat::Uint16;
+            const LONG: wgpu::IndexFormat = wgpu::IndexFormat::Uint32;
+            let (indices, format, first_vertex) = match (&volume.cutout, volume.flaw) {
+                (Some(cutout), _) => {
+                    let (indices, first_vertex) = scratch.cutouts.append(caster, light, cutout, parts, &mut scratch.indices);
+                    (indices, LONG, first_vertex)
+                }
+                (None, Some(flaw)) => {
+                    (scratch.volume.append_flawed(flaw, caster, light, parts, &mut scratch.indices), LONG, None)
+                }
+                (None, None) if vertices.welded.len() * 2 <= u16::LIMIT => {
+                    (scratch.volume.append(caster, light, parts, &mut scratch.short_indices), SHORT, None)
+                }
+                (None, None) => (scratch.volume.append(caster, light, parts, &mut scratch.indices), LONG, None),
             };
-            self.volume_indices.push(indices);
+            self.volume_indices.push((indices, format));
             self.first_vertices.push(first_vertex);
         }
     }
@@ -279,10 +300,13 @@ impl FrameBuffers {
         }));
     }
 
-    /// Indices built this frame.
+    /// Indices built this frame, and their bytes.
     #[must_use]
-    pub fn index_count(&self) -> u64 {
-        self.scratch.indices.len() as u64
+    pub fn index_count(&self) -> [u64; 2] {
+        let short = self.volume_indices.iter().filter(|(_, format)| *format == wgpu::IndexFormat::Uint16);
+        let short = short.map(|(volume, _)| u64::from(volume.triangles()) * 3).sum::<u64>();
+        let long = self.scratch.indices.len() as u64;
+        [short + long, short * 2 + long * 4]
     }
 }
 

@@ -49,6 +49,8 @@ pub struct FrameStats {
     pub volume_triangles: u64,
     /// Indices of shadow volumes built.
     pub indices: u64,
+    /// Their bytes: two an index for casters of up to 32768 vertices, four for others.
+    pub index_bytes: u64,
     /// Milliseconds of this thread: volumes built, uploads, recording, submission.
     pub cpu_ms: f64,
     /// Milliseconds of the device, of the newest frame that has reported; none without timestamps.
@@ -160,12 +162,14 @@ impl Renderer {
         context.queue.submit([encoder.finish()]);
         self.timing.read(slot);
         let volumes = plan.volumes.iter().filter(|volume| volume.method != Method::Dropped).count();
+        let [indices, index_bytes] = self.frame.index_count();
         Ok(FrameStats {
             draws: drawn.draws,
             triangles: drawn.triangles,
             volumes: u32::try_from(volumes).unwrap_or(u32::MAX),
             volume_triangles: drawn.volume_triangles,
-            indices: self.frame.index_count(),
+            indices,
+            index_bytes,
             cpu_ms: begun.elapsed().as_secs_f64() * 1e3,
             gpu_ms: self.timing.latest(),
         })

@@ -8,21 +8,21 @@ use std::cell::OnceCell;
 
 use glam::{DVec3, DVec4};
 
+use super::culling::{Sight, around};
 use super::overflow::{self, Way};
 use super::{Row, wide};
 use crate::frame::plan::View;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{
-    Action, Capabilities, Cutout, Draw, DrawSet, Look, Method, Part, Program, Reason, Step, Target, VolumePart, VolumePlan,
+    Action, Capabilities, Cutout, Draw, DrawSet, Look, Method, Part, Program, Step, Target, VolumePart, VolumePlan,
 };
 use crate::geometry::Aabb;
-use crate::geometry::ending::ending_plane;
 use crate::geometry::eye_count::{EyeCount, holding_count};
 use crate::geometry::frustum::NearPyramid;
 use crate::geometry::light_in_object;
 use crate::geometry::near_rectangle::may_shadow;
-use crate::scene::{AlphaMode, LightKind, Mesh, Node, Pose, PosedLight, Scene};
+use crate::scene::{AlphaMode, Mesh, Node, Pose, PosedLight, Scene};
 use crate::settings::{Overflow, Technique};
 
 /// One caster before one light, as a technique's `decide` sees it.
@@ -49,6 +49,10 @@ pub struct Caster<'a> {
     pub light: &'a PosedLight,
     /// What holds everything that could receive its shadow, and the eye.
     pub receivers: &'a Aabb,
+    /// What of its volume matters.
+    pub sight: Sight,
+    /// The plane on which its volume may end without a visible pixel's count changing.
+    pub end: Option<DVec4>,
     /// What [`Self::holds_eye`] found, once asked.
     pub eye_count: OnceCell<Option<i32>>,
     /// What its volume is thrown from, once a technique decided that it is not its own silhouette.
@@ -99,14 +103,6 @@ impl Caster<'_> {
         }
     }
 
-    /// Whether any of it lies within the light's range.
-    #[must_use]
-    pub fn in_range(&self) -> bool {
-        let bounds = self.pose.bounds(self.scene, self.node_index).transformed(&self.pose.world_from_object[self.node_index]);
-        let nearest: DVec3 = self.light.position.clamp(bounds.min.as_dvec3(), bounds.max.as_dvec3());
-        !self.light.range.is_finite() || nearest.distance(self.light.position) <= self.light.range
-    }
-
     /// The light in object space: a point with w = 1, or the direction towards it with w = 0.
     #[must_use]
     pub fn light_in_object(&self) -> DVec4 {
@@ -130,20 +126,6 @@ impl Caster<'_> {
         may_shadow(self.light.into(), rectangle, &bounds, &self.pose.world_from_object[self.node_index])
     }
 
-    /// The plane on which its volume may end without a visible pixel's count changing.
-    #[must_use]
-    pub fn end(&self) -> Option<DVec4> {
-        if self.view.camera.far.is_some() {
-            // The far plane is to show what it does to volumes without end.
-            return None;
-        }
-        let world_from_object = self.pose.world_from_object[self.node_index];
-        let corners =
-            self.pose.bounds(self.scene, self.node_index).corners().map(|corner| world_from_object.transform_point3(corner));
-        let throws_from_a_point = !matches!(self.light.kind, LightKind::Directional);
-        throws_from_a_point.then(|| ending_plane(self.light.position, corners, self.receivers)).flatten()
-    }
-
     /// The front's winding on screen.
     #[must_use]
     pub fn winding(&self) -> Winding {
@@ -160,6 +142,8 @@ pub struct Ask<'a> {
     pub light: usize,
     /// Pixels.
     pub scissor: [u32; 4],
+    /// Each volume is counted in a step of its own.
+    pub apart: bool,
     /// Per pixel.
     pub samples: u32,
     /// The bits there are to count in.
@@ -188,10 +172,13 @@ pub struct LightCount {
 pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &mut Vec<VolumePlan>) -> LightCount {
     let first = volumes.len();
     let light = ask.light;
+    if row.groups.is_empty() {
+        return LightCount { budget: ask.budget, ..LightCount::default() };
+    }
     // Of those that are counted: the caster, and its volume's number.
     let mut counted = Vec::new();
     for caster in casters {
-        let decided = if caster.in_range() { (row.decide)(caster) } else { Some((Method::Dropped, Reason::OutOfRange)) };
+        let decided = caster.sight.dropped.map(|reason| (Method::Dropped, reason)).or_else(|| (row.decide)(caster));
         let Some((method, reason)) = decided else { continue };
         let holds_eye = if method == Method::ExactZPass { caster.holds_eye().unwrap_or(0) } else { 0 };
         let cutout = caster.cutout.get().copied();
@@ -204,10 +191,13 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
             light,
             method,
             reason,
+            case: caster.sight.case,
+            parts: caster.sight.parts,
+            rect: caster.sight.rect,
             holds_eye,
             outline: row.outline,
             extrusion: row.extrusion,
-            end: if cutout.is_none() && row.extrusion.is_none() { caster.end() } else { None },
+            end: if cutout.is_none() && row.extrusion.is_none() { caster.end } else { None },
             cutout,
             turns,
             winding: caster.winding(),
@@ -262,10 +252,16 @@ fn steps(row: &Row, members: &[usize], volumes: &[VolumePlan], budget: BitBudget
                 .filter(|(_, volume)| volume.method == group.method && volume.winding == winding)
                 .flat_map(|(index, volume)| group.parts.iter().map(move |&part| (volume, VolumePart { volume: index, part })))
                 .filter(|(volume, part)| volume.turns || part.part != Part::LightCapTurned)
+                .filter(|(volume, part)| volume.shows(part.part))
                 .map(|(_, part)| part)
                 .collect();
-            if !parts.is_empty() {
-                steps.push(group.step(ask.light, winding, ask.scissor, budget, parts));
+            let shares = |a: &VolumePart, b: &VolumePart| !ask.apart || a.volume == b.volume;
+            for parts in parts.chunk_by(shares) {
+                // What is wrong somewhere is left to be wrong everywhere.
+                let of_volume =
+                    |part: &VolumePart| if row.exact { volumes[part.volume].scissor(ask.scissor) } else { ask.scissor };
+                let rect = parts.iter().map(of_volume).reduce(around).unwrap_or(ask.scissor);
+                steps.push(group.step(ask.light, winding, rect, budget, parts.to_vec()));
             }
         }
     }

@@ -39,7 +39,7 @@ pub(super) const ROW: Row = Row {
     groups: &[GROUPS, z_fail::GROUPS],
 };
 
-const GROUPS: &[Group] = &[Group {
+pub(super) const GROUPS: &[Group] = &[Group {
     method: Method::ExactZPass,
     parts: &[Part::Sides],
     label: "count sides, exact z-pass",
@@ -49,7 +49,8 @@ const GROUPS: &[Group] = &[Group {
     ..Group::PLAIN
 }];
 
-fn decide(caster: &Caster<'_>) -> (Method, Reason) {
+/// Exact z-pass for one caster, or z-fail where that would not be exact.
+pub(super) fn decide(caster: &Caster<'_>) -> (Method, Reason) {
     match z_fail::decide(caster) {
         (by_z_fail, _) if !caster.capabilities.depth_clip_control => (by_z_fail, Reason::NoDepthClamp),
         (Method::ZFail, _) if caster.holds_eye().is_none() => (Method::ZFail, Reason::EyeOnBoundary),

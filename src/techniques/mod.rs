@@ -8,8 +8,10 @@
 //! A further technique is a line in [`Technique`], a file here with its `ROW`, and its name in
 //! [`TABLE`]; panel, command line, lists and the tour read those.
 
+mod auto;
 pub mod beam;
 pub mod counting;
+pub mod culling;
 mod cutout;
 mod exact_z_pass;
 mod flattened;
@@ -66,6 +68,7 @@ pub static TABLE: &[Row] = &[
     z_pass::ROW,
     z_fail::ROW,
     exact_z_pass::ROW,
+    auto::ROW,
     wide::ROW,
     z_plus::ROW,
     one_sided::ROW,

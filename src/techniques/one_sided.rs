@@ -42,6 +42,8 @@ const RAISING: &[Group] = &[
     half(2, Program::VolumeFronts, StencilState::raise_behind),
     half(3, Program::VolumeBacks, StencilState::raise_behind),
     half(4, Program::VolumeFronts, StencilState::raise_behind),
+    half(5, Program::VolumeBacks, StencilState::raise_behind),
+    half(6, Program::VolumeBacks, StencilState::raise_behind),
 ];
 
 const LOWERING: &[Group] = &[
@@ -50,6 +52,8 @@ const LOWERING: &[Group] = &[
     half(2, Program::VolumeBacks, StencilState::lower_behind),
     half(3, Program::VolumeFronts, StencilState::lower_behind),
     half(4, Program::VolumeBacks, StencilState::lower_behind),
+    half(5, Program::VolumeFronts, StencilState::lower_behind),
+    half(6, Program::VolumeFronts, StencilState::lower_behind),
 ];
 
 /// One of z-fail's groups, of one face only.

@@ -12,6 +12,10 @@
 //! compare Never and counts everywhere. Where it may be missing (culled from behind, masked,
 //! before the near plane) the depth test must decide; cap and surface share vertex order and
 //! position arithmetic, so that equal depth is equal to the last bit.
+//!
+//! The dark cap is behind every surface by construction, so it is drawn with Never too. Compared, it
+//! would fail wherever a surface is, but for the slivers of its fan: seen edge-on on the plane where a
+//! volume ends, their depth is interpolated from next to nothing, and one in a million would pass.
 
 use super::{Caster, Group, Row};
 use crate::frame::state::Depth;
@@ -36,8 +40,8 @@ pub(super) const ROW: Row = Row {
 pub(super) const GROUPS: &[Group] = &[
     Group {
         method: Method::ZFail,
-        parts: &[Part::Sides, Part::DarkCap],
-        label: "count sides and dark caps, z-fail",
+        parts: &[Part::Sides],
+        label: "count sides, z-fail",
         why: "Faces behind the surface, from infinity towards the eye.",
         stencil: StencilState::count_z_fail,
         ..Group::PLAIN
@@ -62,8 +66,8 @@ pub(super) const GROUPS: &[Group] = &[
     },
     Group {
         method: Method::ZFailCompared,
-        parts: &[Part::Sides, Part::DarkCap, Part::LightCapKept],
-        label: "count whole volumes, z-fail",
+        parts: &[Part::Sides, Part::LightCapKept],
+        label: "count sides and light caps, z-fail, compared",
         why: "The caster's surface may be missing from the depth buffer, so its light cap is compared with depth.",
         stencil: StencilState::count_z_fail,
         ..Group::PLAIN
@@ -76,7 +80,21 @@ pub(super) const GROUPS: &[Group] = &[
         stencil: StencilState::count_z_fail_turned,
         ..Group::PLAIN
     },
+    dark_caps(Method::ZFail),
+    dark_caps(Method::ZFailCompared),
 ];
+
+const fn dark_caps(method: Method) -> Group {
+    Group {
+        method,
+        parts: &[Part::DarkCap],
+        label: "count dark caps, z-fail",
+        why: "Every surface hides the dark cap: it counts everywhere.",
+        stencil: StencilState::count_z_fail,
+        depth: Depth::NEVER,
+        ..Group::PLAIN
+    }
+}
 
 /// Z-fail for one caster: how its light cap must be drawn.
 pub(super) fn decide(caster: &Caster<'_>) -> (Method, Reason) {

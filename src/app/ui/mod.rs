@@ -8,6 +8,7 @@
 mod camera;
 mod commands;
 mod counting;
+mod culling;
 mod failures;
 mod gather;
 mod gizmo;
@@ -228,6 +229,7 @@ impl Panel {
         style::section(ui, "Proof", true, |ui| verify::verify(ui, desk, view, actions));
         style::section(ui, "Lights", true, |ui| lights::lights(ui, self, desk, view));
         style::section(ui, "Gathering", true, |ui| gather::gather(ui, desk, view));
+        style::section(ui, "Culling", false, |ui| culling::culling(ui, desk, view));
         style::section(ui, "Camera", true, |ui| camera::camera(ui, desk, view));
         style::section(ui, "Time", true, |ui| time::time(ui, desk, view));
         style::section(ui, "How this frame is drawn", false, |ui| numbers::plan(ui, view));

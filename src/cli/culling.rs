@@ -1,0 +1,47 @@
+//! The options that say what is left out of counting shadows, to [`Culling`] and back.
+
+use clap::Args;
+
+use super::command_line::Line;
+use super::input::InputError;
+use super::{by_name, names};
+use crate::settings::{Culling, LightBounds};
+
+/// What both the window and `render` understand of it.
+#[derive(Debug, Clone, PartialEq, Args)]
+pub(super) struct CullingArguments {
+    /// Counts shadow volumes too that meet nothing that is lit and in view, and caps that are out of view
+    #[arg(long)]
+    no_culling: bool,
+    #[arg(long, value_name = "B", help = format!("What bounds the pixels that a light can reach: {} [default: tight]", names(LightBounds::ALL.map(LightBounds::name))))]
+    light_bounds: Option<String>,
+    /// Counts each volume in a step of its own, behind a scissor of its own
+    #[arg(long)]
+    caster_scissors: bool,
+}
+
+impl CullingArguments {
+    /// Changes `culling` as the arguments say.
+    pub fn apply(&self, culling: &mut Culling) -> Result<(), InputError> {
+        culling.on &= !self.no_culling;
+        if let Some(name) = &self.light_bounds {
+            culling.light_bounds = by_name("light bounds", name, LightBounds::ALL, LightBounds::name)?;
+        }
+        culling.caster_scissors |= self.caster_scissors;
+        Ok(())
+    }
+}
+
+/// The options that give `culling` again.
+pub(super) fn write(culling: &Culling, line: &mut Line) {
+    let Culling { on, light_bounds, caster_scissors } = *culling;
+    if !on {
+        line.word("--no-culling");
+    }
+    if light_bounds != LightBounds::default() {
+        line.option("--light-bounds", light_bounds.name());
+    }
+    if caster_scissors {
+        line.word("--caster-scissors");
+    }
+}

@@ -1,0 +1,65 @@
+//! What is left out of counting shadows, and how.
+
+use serde::{Deserialize, Serialize};
+
+/// What is left out of counting shadows because it cannot matter ([`crate::techniques::culling`]).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Culling {
+    /// Volumes whose shadow meets nothing that is lit and in view, and caps that are out of view.
+    pub on: bool,
+    /// What bounds the pixels that a light can reach.
+    pub light_bounds: LightBounds,
+    /// Each volume is counted in a step of its own, behind a scissor of its own; else those that are
+    /// counted alike share both.
+    pub caster_scissors: bool,
+}
+
+impl Default for Culling {
+    fn default() -> Self {
+        Self { on: true, light_bounds: LightBounds::default(), caster_scissors: false }
+    }
+}
+
+/// What bounds the pixels that a light can reach: clipped at the near plane and projected, it is the
+/// light's scissor.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LightBounds {
+    /// Nothing: every pixel.
+    None,
+    /// The box about its range (M).
+    Box,
+    /// The ball of its range (L).
+    Sphere,
+    /// Both, and a spot's cone.
+    #[default]
+    Tight,
+}
+
+impl LightBounds {
+    /// Every one, in the order people see them.
+    pub const ALL: [Self; 4] = [Self::None, Self::Box, Self::Sphere, Self::Tight];
+
+    /// The name on the command line and in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Box => "box",
+            Self::Sphere => "sphere",
+            Self::Tight => "tight",
+        }
+    }
+
+    /// One sentence for help and panel.
+    #[must_use]
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::None => "every pixel is counted and lit",
+            Self::Box => "the box about the light's range, clipped and projected (McGuire)",
+            Self::Sphere => "the ball of the light's range, by the planes that touch it (Lengyel)",
+            Self::Tight => "ball, box and the cone of a spot, whichever is smaller",
+        }
+    }
+}

@@ -1,0 +1,315 @@
+//! What can be left out of a light's count, and McGuire's three cases (M section 6 and figure 4).
+//!
+//! A volume is left out as a whole where it can hold no surface that is lit and in view:
+//!
+//! - its caster lies beyond the light's range, or outside its cone (M's first conditional: rays only
+//!   lead away from the light, so what a caster out there shades lies out there too);
+//! - the volume's bounds, the hull of the caster's box and of the box thrown away from the light,
+//!   miss the view: the frustum behind the light's scissor (M's `viewFrustum`, line 7);
+//! - or they meet the view, but no surface in it.
+//!
+//! Then each visible surface lies outside the volume, its count is zero by every exact technique, and
+//! so is what the eye's count would add and the sides would take away again. Leaving *parts* of a
+//! volume out is another matter: z-fail counts faces behind the surface, on screen, so a cap that is
+//! nowhere on screen counts nothing, and each cap may go by its own bounds (M's `DrawLightCap` and
+//! `DrawDarkCap`). The sides' bounds are the volume's.
+//!
+//! The cases ask whether the near rectangle can be in the caster's shadow: whether its box reaches into
+//! the *occlusion pyramid* between the light and the near rectangle (L; M figure 2). Ours holds the eye
+//! as well, so that the answer is right also where nothing is clipped at the near plane.
+//!
+//! ```text
+//!   case 1   the pyramid is clear: counting may start at the near plane, sides are enough
+//!   case 2   it may not be, but the light cap is out of view: z-fail with sides and dark cap
+//!   case 3   it may not be, and the light cap is in view: z-fail with both caps
+//! ```
+//!
+//! M calls them so for a bound by boxes, and so do we: case 2 and 3 say *may be*, not *is*.
+
+use glam::{DMat4, DVec3, DVec4};
+
+use crate::frame::Reason;
+use crate::frame::plan::{Case, View};
+use crate::geometry::frustum::{cube, hull_rect, screen_rect};
+use crate::geometry::{Aabb, Body, VolumeParts};
+use crate::scene::{AlphaMode, LightKind, Pose, PosedLight, Scene};
+use crate::settings::{LightBounds, Show};
+
+/// Where things are in one view, asked once a frame.
+#[derive(Debug)]
+pub struct Stalls {
+    /// Each instance's box.
+    pub boxes: Vec<Body>,
+    /// Whether any of an instance's opaque surfaces may be in view.
+    seen: Vec<bool>,
+    /// Instances, the largest first: they are the likeliest to receive a shadow.
+    by_size: Vec<usize>,
+}
+
+impl Stalls {
+    /// The boxes of `scene` as posed, and which of them `view` may see.
+    #[must_use]
+    pub fn new(scene: &Scene, pose: &Pose, view: &View) -> Self {
+        let frustum = Body::frustum(view.camera.eye, view.camera.near_rectangle());
+        let mut sizes = Vec::new();
+        let mut boxes = Vec::new();
+        let mut seen = Vec::new();
+        for (node, _, mesh) in scene.instances() {
+            let bounds = pose.bounds(scene, node);
+            let body = Body::boxed(&bounds, &pose.world_from_object[node]);
+            let receives = mesh.primitives.iter().any(|part| scene.materials[part.material].alpha != AlphaMode::Blend);
+            seen.push(receives && frustum.may_meet(&body));
+            sizes.push(bounds.transformed(&pose.world_from_object[node]).radius());
+            boxes.push(body);
+        }
+        let mut by_size: Vec<_> = (0..boxes.len()).collect();
+        by_size.sort_by(|a, b| sizes[*b].total_cmp(&sizes[*a]));
+        Self { boxes, seen, by_size }
+    }
+}
+
+/// Which surfaces a show asks about: the others' counts are nobody's business.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interest {
+    /// All in view.
+    InView,
+    /// Those within the light's range.
+    InRange,
+    /// Those the light shines on: within its range and its cone.
+    Lit,
+}
+
+impl From<Show> for Interest {
+    fn from(show: Show) -> Self {
+        match show {
+            Show::Stencil | Show::Overflow => Self::InView,
+            Show::Shadow => Self::InRange,
+            _ => Self::Lit,
+        }
+    }
+}
+
+/// The pixels a light can reach, by bounds that were clipped and projected; `None` where it reaches none.
+#[must_use]
+pub fn light_rect(
+    light: &PosedLight,
+    bounds: LightBounds,
+    interest: Interest,
+    clip_from_world: &DMat4,
+    size: [u32; 2],
+) -> Option<[u32; 4]> {
+    let whole = Some([0, 0, size[0], size[1]]);
+    if interest == Interest::InView || bounds == LightBounds::None {
+        return whole;
+    }
+    let (at, range) = (light.position, light.range);
+    let by_box = || if range.is_finite() { hull_rect(cube(at, range), clip_from_world, size) } else { whole };
+    let by_sphere = || if range.is_finite() { screen_rect(at, range, clip_from_world, size) } else { whole };
+    match bounds {
+        LightBounds::None => whole,
+        LightBounds::Box => by_box(),
+        LightBounds::Sphere => by_sphere(),
+        LightBounds::Tight => {
+            let by_cone = match light.kind {
+                LightKind::Spot { outer, .. } if interest == Interest::Lit => {
+                    Body::cone_within(at, light.direction, outer.into(), range)
+                }
+                _ => None,
+            };
+            let by_cone = by_cone.map_or(whole, |cone| hull_rect(cone.hull(), clip_from_world, size));
+            common(common(by_sphere()?, by_box()?)?, by_cone?)
+        }
+    }
+}
+
+/// The pixels of both rectangles.
+fn common([ax, ay, aw, ah]: [u32; 4], [bx, by, bw, bh]: [u32; 4]) -> Option<[u32; 4]> {
+    let (x, y) = (ax.max(bx), ay.max(by));
+    let (right, bottom) = ((ax + aw).min(bx + bw), (ay + ah).min(by + bh));
+    (right > x && bottom > y).then(|| [x, y, right - x, bottom - y])
+}
+
+/// The smallest rectangle that holds both.
+#[must_use]
+pub fn around([ax, ay, aw, ah]: [u32; 4], [bx, by, bw, bh]: [u32; 4]) -> [u32; 4] {
+    let (x, y) = (ax.min(bx), ay.min(by));
+    [x, y, (ax + aw).max(bx + bw) - x, (ay + ah).max(by + bh) - y]
+}
+
+/// What one light's shadows could matter to.
+#[derive(Debug)]
+pub struct Audience<'a> {
+    light: &'a PosedLight,
+    stalls: &'a Stalls,
+    interest: Interest,
+    culling: bool,
+    scissor: [u32; 4],
+    clip_from_world: DMat4,
+    size: [u32; 2],
+    /// The view behind the light's scissor.
+    view: Body,
+    /// Its directions, for what lies at infinity.
+    sky: Body,
+    /// Between the light, the near rectangle and the eye.
+    occlusion: Body,
+    cone: Option<Body>,
+    /// Instances that are in view and that the light reaches, the largest first.
+    receivers: Vec<usize>,
+}
+
+/// One caster's volume before its audience.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sight {
+    /// Why it need not be counted at all.
+    pub dropped: Option<Reason>,
+    /// M's case; none for volumes that need not be counted.
+    pub case: Option<Case>,
+    /// The parts that may be on screen.
+    pub parts: VolumeParts,
+    /// The pixels where it may hold a surface that matters.
+    pub rect: [u32; 4],
+}
+
+impl<'a> Audience<'a> {
+    /// What `light`, whose pixels are `scissor`, can matter to in `view`, a picture of `size`. Where
+    /// `culling` is off nothing in view is left out.
+    #[must_use]
+    pub fn new(
+        light: &'a PosedLight,
+        stalls: &'a Stalls,
+        view: &View,
+        interest: Interest,
+        culling: bool,
+        scissor: [u32; 4],
+        size: [u32; 2],
+    ) -> Self {
+        let camera = &view.camera;
+        let frustum = Body::frustum(camera.eye, camera.near_rectangle_of(scissor, size));
+        let cone = match light.kind {
+            LightKind::Spot { outer, .. } if interest == Interest::Lit => {
+                Body::cone(light.position, light.direction, outer.into())
+            }
+            _ => None,
+        };
+        let limits = interest != Interest::InView && light.range.is_finite();
+        let ball = limits.then(|| ball_of(light));
+        let behind_scissor = scissor != [0, 0, size[0], size[1]];
+        let reached = |instance: &usize| {
+            let body = &stalls.boxes[*instance];
+            stalls.seen[*instance]
+                && (!behind_scissor || frustum.may_meet(body))
+                && ball.as_ref().is_none_or(|ball| ball.may_meet(body))
+                && cone.as_ref().is_none_or(|cone| cone.may_meet(body))
+        };
+        let receivers = stalls.by_size.iter().copied().filter(reached).collect();
+        Self {
+            light,
+            stalls,
+            interest,
+            culling,
+            scissor,
+            clip_from_world: camera.clip_from_world(),
+            size,
+            sky: frustum.directions_of(),
+            view: frustum,
+            occlusion: Body::occlusion(light.into(), camera.near_rectangle(), camera.eye),
+            cone,
+            receivers,
+        }
+    }
+
+    /// The part of `receivers`, a box that holds every surface, that the light reaches, and the eye: its
+    /// volumes need not go farther.
+    #[must_use]
+    pub fn receivers_within(&self, receivers: &Aabb, eye: DVec3) -> Aabb {
+        if self.interest == Interest::InView || !self.light.range.is_finite() {
+            return *receivers;
+        }
+        let (at, range) = (self.light.position, DVec3::splat(self.light.range));
+        let ball = Aabb::around(at - range, at + range);
+        let both = Aabb { min: receivers.min.max(ball.min), max: receivers.max.min(ball.max) };
+        if both.is_empty() { *receivers } else { both.union(&Aabb::around(eye, eye)) }
+    }
+
+    /// What of `instance`'s volume matters: its box has the world-space `corners` (as
+    /// [`Aabb::corners`] orders them), and the volume ends on `end`.
+    #[must_use]
+    pub fn sight(&self, instance: usize, corners: &[DVec3; 8], in_range: bool, end: Option<DVec4>) -> Sight {
+        let dropped = |reason| Sight { dropped: Some(reason), case: None, parts: VolumeParts::NONE, rect: self.scissor };
+        if !in_range {
+            return dropped(Reason::OutOfRange);
+        }
+        let body = &self.stalls.boxes[instance];
+        let near_clear = !self.occlusion.may_meet(body);
+        let in_view = self.view.may_meet(body);
+        let case = match (near_clear, in_view) {
+            (true, _) => Case::One,
+            (false, false) => Case::Two,
+            (false, true) => Case::Three,
+        };
+        if !self.culling {
+            return Sight { dropped: None, case: Some(case), parts: VolumeParts::ALL, rect: self.scissor };
+        }
+        if self.cone.as_ref().is_some_and(|cone| !cone.may_meet(body)) {
+            return dropped(Reason::OutOfCone);
+        }
+        let light = DVec4::from(self.light);
+        let volume = Body::volume(corners, light, self.sooner(corners, end));
+        if !(in_view || self.view.may_meet(&volume)) {
+            return dropped(Reason::OutOfView);
+        }
+        let receives = |receiver: &usize| *receiver == instance || self.stalls.boxes[*receiver].may_meet(&volume);
+        if !self.receivers.iter().any(receives) {
+            return dropped(Reason::ReachesNothing);
+        }
+        let Some(rect) = hull_rect(volume.hull(), &self.clip_from_world, self.size).and_then(|rect| common(rect, self.scissor))
+        else {
+            return dropped(Reason::OutOfView);
+        };
+        let dark_cap = light.w != 0.0 && {
+            let cap = Body::dark_cap(corners, self.light.position, end);
+            if end.is_some() { &self.view } else { &self.sky }.may_meet(&cap)
+        };
+        let parts = VolumeParts { light_cap: in_view, dark_cap, ..VolumeParts::SIDES };
+        Sight { dropped: None, case: Some(case), parts, rect }
+    }
+
+    /// Where the volume stops to matter: at its end, or at the light's.
+    fn sooner(&self, corners: &[DVec3; 8], end: Option<DVec4>) -> Option<DVec4> {
+        /// Rays nearly along a plane meet it very far away.
+        const LEAST_SLOPE: f64 = 0.02;
+        if self.interest == Interest::InView || !self.light.range.is_finite() {
+            return end;
+        }
+        let (at, range) = (self.light.position, self.light.range);
+        let middle = (corners[0] + corners[7]) / 2.0 - at;
+        let Some(ahead) = middle.try_normalize() else { return end };
+        // No point of the light's ball lies beyond the plane that touches it in this direction.
+        let reach = range.max(corners.iter().map(|corner| ahead.dot(*corner - at)).fold(0.0, f64::max));
+        let towards = |corner: &DVec3| ahead.dot(*corner - at) > LEAST_SLOPE * corner.distance(at);
+        if !corners.iter().all(towards) {
+            return end;
+        }
+        let along = |plane: DVec4| -(plane.truncate().dot(at) + plane.w) / plane.truncate().dot(middle);
+        let touching = ahead.extend(-ahead.dot(at) - reach);
+        Some(end.filter(|end| along(*end) <= along(touching)).unwrap_or(touching))
+    }
+}
+
+/// The box about a light's range.
+fn ball_of(light: &PosedLight) -> Body {
+    let (at, range) = (light.position, DVec3::splat(light.range));
+    Body::boxed(&Aabb::around(at - range, at + range), &glam::DAffine3::IDENTITY)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rectangles_meet_and_join() {
+        assert_eq!(common([0, 0, 10, 10], [5, 2, 20, 3]), Some([5, 2, 5, 3]));
+        assert_eq!(common([0, 0, 10, 10], [10, 0, 5, 5]), None, "they touch");
+        assert_eq!(around([2, 3, 1, 1], [5, 0, 2, 2]), [2, 0, 5, 4]);
+    }
+}
