@@ -15,7 +15,9 @@ use glam::DVec3;
 use obscura::cli::render_command;
 use obscura::frame::{Case, Method, Reason};
 use obscura::scene::{AnimationChoice, LightKind, Scene, pose, stock};
-use obscura::settings::{CameraChoice, Culling, LightBounds, LightEdit, SceneChoice, Settings, Show, Technique};
+use obscura::settings::{
+    CameraChoice, Counting, Culling, LightBounds, LightEdit, Overflow, SceneChoice, Settings, Show, Technique,
+};
 
 const VIEWS_PER_SCENE: usize = 44;
 const SIZE: [u32; 2] = [200, 112];
@@ -51,7 +53,7 @@ fn view(scene: &Scene, view: usize, random: &mut Random) -> Settings {
     let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
     let margin = (high - low) * 0.2;
     // Every third eye stands close to some caster's own box, so that near planes are crossed.
-    let eye = if view % 3 == 0 {
+    let eye = if view.is_multiple_of(3) {
         let casters: Vec<_> = scene.instances().filter(|(_, node, _)| node.casts_shadow).map(|(index, ..)| index).collect();
         let chosen = casters[(random.unit() * casters.len() as f64) as usize];
         let near = posed.world_bounds(scene, chosen);
@@ -67,6 +69,8 @@ fn view(scene: &Scene, view: usize, random: &mut Random) -> Settings {
         time,
         light,
         camera: CameraChoice::Free { eye, target },
+        // The stencil's own count, modulo 256: not what is done where that is too few.
+        counting: Counting { overflow: Overflow::Naive, ..Counting::default() },
         ..Settings::default()
     };
     if scene.lights[light].kind != LightKind::Directional {

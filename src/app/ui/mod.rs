@@ -223,12 +223,12 @@ impl Panel {
         style::section_unfolded(ui, "Scene", true, self.focus_path, |ui| scene::scene(ui, self, desk, view, actions));
         style::section(ui, "Frame", true, |ui| numbers::numbers(ui, desk, view));
         style::section(ui, "Technique", true, |ui| technique::techniques(ui, desk));
-        style::section(ui, "Count", false, |ui| counting::counting(ui, desk, view));
         style::section(ui, "Show", true, |ui| technique::show(ui, desk, view));
         style::section(ui, "Failures", false, |ui| failures::failures(ui, self, desk, actions));
         style::section(ui, "Proof", true, |ui| verify::verify(ui, desk, view, actions));
         style::section(ui, "Lights", true, |ui| lights::lights(ui, self, desk, view));
         style::section(ui, "Gathering", true, |ui| gather::gather(ui, desk, view));
+        style::section(ui, "Count", false, |ui| counting::counting(ui, desk, view));
         style::section(ui, "Culling", false, |ui| culling::culling(ui, desk, view));
         style::section(ui, "Camera", true, |ui| camera::camera(ui, desk, view));
         style::section(ui, "Time", true, |ui| time::time(ui, desk, view));
