@@ -93,9 +93,10 @@ fn a_light_all_around_which_the_caster_lies_is_bounded_too() {
     let at_center = bound(&ring, Vec4::new(0.0, 0.1, 0.0, 1.0), 0);
     assert_eq!(at_center, 1, "each ray leaves by the outside of the tube, turned away");
     let outside = Vec4::new(5.0, 0.1, 0.2, 1.0);
-    assert_eq!(by_rays(&ring, outside, &[]), 2, "the near tube and the far one");
-    let bound = bound(&ring, outside, 0);
-    assert!((2..=3).contains(&bound), "{bound}: two edges may cross within a strip");
+    // The near tube and the far one; close to its outline a tube of flat triangles is folded once more.
+    let most = by_rays(&ring, outside, &[]);
+    assert!((2..=3).contains(&most), "{most}");
+    assert_eq!(bound(&ring, outside, 0), most.cast_unsigned(), "no more than some ray finds");
 }
 
 #[test]

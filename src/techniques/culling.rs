@@ -262,7 +262,10 @@ impl<'a> Audience<'a> {
         if !self.receivers.iter().any(receives) {
             return dropped(Reason::ReachesNothing);
         }
-        let Some(rect) = hull_rect(volume.hull(), &self.clip_from_world, self.size).and_then(|rect| common(rect, self.scissor))
+        // All that is drawn of it, not only what matters: its parts go into steps whose scissors differ,
+        // and a side that is drawn where its cap is cut off would count by itself.
+        let drawn = Body::volume(corners, light, end);
+        let Some(rect) = hull_rect(drawn.hull(), &self.clip_from_world, self.size).and_then(|rect| common(rect, self.scissor))
         else {
             return dropped(Reason::OutOfView);
         };
