@@ -20,7 +20,7 @@
 //! are parallel lines, and w0 is zero. The sweep is made about up to three axes, and the smallest
 //! answer counts. It is loose where a meridian enters and leaves many parts one after the other: a
 //! fence, a colonnade. There the order of the edges is looked at too, strip by strip between
-//! neighbouring vertices ([`Sweep::ordered`]); within a strip edges have all but fixed heights, and
+//! neighbouring vertices (`Sweep::ordered`); within a strip edges have all but fixed heights, and
 //! the answer is all but exact.
 //!
 //! A convex solid ([`is_convex`]) needs none of this: a ray leaves it for good.

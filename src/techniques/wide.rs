@@ -14,7 +14,7 @@
 //! the verdict is then read for each sample by itself.
 //!
 //! Other exact techniques fall back on this one where a single caster's volume could wind around a
-//! point more often than the stencil can count ([`super::overflow`]).
+//! point more often than the stencil can count (`techniques::overflow`).
 
 use super::counting::{Ask, full_screen};
 use super::{Group, Row, z_fail};
