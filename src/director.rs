@@ -22,6 +22,7 @@ use crate::scene::area::sequence;
 use crate::scene::pose::pose;
 use crate::scene::{LightKind, Pose, Sampling, Scene};
 use crate::settings::{Accumulation, MAX_FRAMES, Settings, Show, Technique, Texturing};
+use crate::techniques::cases::{self, Class};
 use crate::techniques::counting::LightCount;
 use crate::techniques::culling::{Audience, Stalls, light_rect};
 use crate::techniques::{self, Caster, counting, labels, show, surfaces, wide};
@@ -66,9 +67,9 @@ pub fn stage(settings: &Settings, scene: &Scene, capabilities: &Capabilities) ->
 /// How many frames make one picture: those whose mean it is, or one.
 #[must_use]
 pub fn frames(settings: &Settings) -> u32 {
-    // Exact values have no mean.
-    let exact_values = matches!(settings.show, Show::Stencil | Show::Shadow | Show::Overflow);
-    if exact_values { 1 } else { settings.lighting.accumulate.clamp(1, MAX_FRAMES) }
+    // Exact values and false colours have no mean.
+    let one_frame = matches!(settings.show, Show::Stencil | Show::Shadow | Show::Overflow | Show::Cases);
+    if one_frame { 1 } else { settings.lighting.accumulate.clamp(1, MAX_FRAMES) }
 }
 
 /// [`stage`] for one of the [`frames`], from 0: each has other points of the lights with a size, and all
@@ -94,8 +95,7 @@ pub fn stage_frame(
     if !settings.time.is_finite() || settings.time < 0.0 {
         return Err(StageError::Time(settings.time));
     }
-    let looks_at_light = matches!(settings.show, Show::Stencil | Show::Shadow | Show::Overflow | Show::Volumes);
-    if looks_at_light && settings.light >= scene.lights.len() {
+    if settings.show.looks_at_light() && settings.light >= scene.lights.len() {
         return Err(StageError::Light(settings.light, scene.lights.len()));
     }
     let mut pose = pose(scene, settings.time, settings.animation.unwrap_or(scene.default_animation), &settings.lights);
@@ -167,6 +167,15 @@ pub fn plan(
                 frame.push(step);
             }
             frame.push(show::copy(whole));
+        }
+        Show::Cases => {
+            frame.plan_casters(settings.light);
+            let classes = frame.classes(settings.light);
+            frame.clear_all(cases::BACKGROUND, 0);
+            frame.extend(cases::steps(scene, &groups, &classes, whole));
+            frame.extend(cases::glass(scene, pose, &frame.plan.views[0], whole));
+            frame.push(show::copy(whole));
+            frame.label(Target::Output);
         }
         Show::Final | Show::Volumes | Show::Wireframe => {
             let darkens = techniques::row(settings.technique).darkens;
@@ -450,6 +459,18 @@ impl<'a> Frame<'a> {
         if !self.plan.volumes.iter().any(|volume| volume.light == light) {
             self.count_by(techniques::row(Technique::ZPass), light);
         }
+    }
+
+    /// Decides every caster of a light, by the chosen technique or, where that counts nothing, as the
+    /// volumes that are shown are.
+    fn plan_casters(&mut self, light: usize) {
+        self.count(light);
+        self.plan_glass(light);
+    }
+
+    /// What each instance is to a light whose casters are planned.
+    fn classes(&self, light: usize) -> Vec<Class> {
+        cases::classes(self.scene, &self.plan.volumes, light, self.pose.lights[light].shadows)
     }
 
     /// Names, where they are asked for, over the finished picture.

@@ -35,7 +35,7 @@ pub struct Settings {
     pub show: Show,
     /// The classic mistake that the frame makes on purpose.
     pub failure: Option<Failure>,
-    /// The light that `stencil`, `shadow` and `volumes` look at.
+    /// The light that shows of one light look at ([`Show::looks_at_light`]).
     pub light: usize,
     /// Pixels: 1 to [`MAX_SIZE`] a side. The window's own size wins there.
     pub size: [u32; 2],
@@ -261,6 +261,8 @@ pub enum Show {
     Overflow,
     /// The picture with one light's shadow volumes drawn over it.
     Volumes,
+    /// Every caster in the colour of the case it falls in for one light.
+    Cases,
     /// The picture with every triangle's edges.
     Wireframe,
 }
@@ -301,7 +303,8 @@ named! {
 
 impl Show {
     /// Everything that can be shown, in the order people see them.
-    pub const ALL: [Self; 6] = [Self::Final, Self::Stencil, Self::Shadow, Self::Overflow, Self::Volumes, Self::Wireframe];
+    pub const ALL: [Self; 7] =
+        [Self::Final, Self::Stencil, Self::Shadow, Self::Overflow, Self::Volumes, Self::Cases, Self::Wireframe];
 
     /// The name on the command line and in files.
     #[must_use]
@@ -312,6 +315,7 @@ impl Show {
             Self::Shadow => "shadow",
             Self::Overflow => "overflow",
             Self::Volumes => "volumes",
+            Self::Cases => "cases",
             Self::Wireframe => "wireframe",
         }
     }
@@ -327,7 +331,19 @@ impl Show {
                 "what the count's bits make of one light's true count: blue held, amber wrapped, red taken for light"
             }
             Self::Volumes => "one light's shadow volumes drawn over the picture",
+            Self::Cases => {
+                "casters by the case they fall in for one light: blue 1, yellow 2, red 3, violet left out; grey casts nothing"
+            }
             Self::Wireframe => "every triangle's edges drawn over the picture",
+        }
+    }
+
+    /// Whether it looks at one light, [`Settings::light`].
+    #[must_use]
+    pub const fn looks_at_light(self) -> bool {
+        match self {
+            Self::Stencil | Self::Shadow | Self::Overflow | Self::Volumes | Self::Cases => true,
+            Self::Final | Self::Wireframe => false,
         }
     }
 }

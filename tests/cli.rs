@@ -140,9 +140,18 @@ fn json_tells_the_plan_and_the_time() {
     assert_eq!(report["technique"], "z-fail");
     assert!(!report["adapter"].as_str().unwrap().is_empty());
     assert!(report["steps"].as_array().unwrap().iter().all(|step| step["label"].is_string() && step["why"].is_string()));
-    let counted = &report["volumes"][0]["counted"];
-    let casters: u64 = counted.as_array().unwrap().iter().map(|group| group["casters"].as_u64().unwrap()).sum();
-    assert!(casters > 0, "{counted}");
+    let lights = report["volumes"].as_array().unwrap();
+    let counted = lights.iter().flat_map(|light| light["counted"].as_array().unwrap());
+    let casters: u64 = counted.map(|group| group["casters"].as_u64().unwrap()).sum();
+    assert!(casters > 0, "{lights:?}");
+    let listed = report["casters"].as_array().unwrap();
+    assert_eq!(listed.len() as u64, casters, "no light of this scene has a size");
+    for caster in listed {
+        let mut keys: Vec<_> = caster.as_object().unwrap().keys().map(String::as_str).collect();
+        keys.sort_unstable();
+        assert_eq!(keys, ["case", "caster", "light", "method", "reason"]);
+        assert!(caster["case"].as_u64().is_some_and(|case| (1..=3).contains(&case)) || caster["method"] == "dropped");
+    }
     assert!(report["frame"]["draws"].as_u64().unwrap() > 0);
     assert!(report["timings"]["second_frame_ms"].as_f64().unwrap() > 0.0);
 }

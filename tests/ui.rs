@@ -13,11 +13,12 @@ use obscura::app::store::Preferences;
 use obscura::app::ui::{Action, Desk, FrameNumbers, History, Notice, Panel, Tone, Topic, View, project, style};
 use obscura::app::verify::{Finding, Verification};
 use obscura::failures;
-use obscura::frame::{Camera, Capabilities};
+use obscura::frame::{Camera, Capabilities, FramePlan};
 use obscura::scene::stock::StockScene;
 use obscura::scene::{self, Light, LightKind, Node, Pose, PosedLight, Scene};
 use obscura::settings::{CameraChoice, Failure, LightEdit, SceneChoice, Settings, Show, Technique};
 use obscura::techniques::TABLE;
+use obscura::techniques::cases::{self, Class};
 use obscura::truth::{Comparison, Wrong, WrongPixel};
 
 /// Everything around the panel that the window would hold.
@@ -27,6 +28,7 @@ struct Bench {
     panel: Panel,
     scene: Scene,
     pose: Pose,
+    plan: Option<FramePlan>,
     notices: Vec<Notice>,
     capabilities: Capabilities,
     history: History,
@@ -86,6 +88,7 @@ impl Bench {
             panel: Panel::default(),
             scene,
             pose,
+            plan: None,
             notices: Vec::new(),
             capabilities: Capabilities::complete(),
             history: History::default(),
@@ -100,7 +103,7 @@ impl Bench {
             stock: &STOCK,
             scene: Some(&self.scene),
             pose: Some(&self.pose),
-            plan: None,
+            plan: self.plan.as_ref(),
             doctor: "mesh 0 is closed",
             opening: None,
             notices: &self.notices,
@@ -157,6 +160,57 @@ fn each_technique_changes_just_the_technique() {
         assert!(harness.query_by_label_contains(row.about).is_some(), "{} is explained", row.title);
     }
     assert_eq!(harness.state().actions, []);
+}
+
+/// The scene of a bench with casters in it, planned.
+fn planned(show: Show, light: usize) -> Bench {
+    let mut bench = Bench::new();
+    bench.scene = scene::stock::build("cathedral").unwrap().unwrap();
+    bench.settings = Settings { show, light, technique: Technique::Auto, size: [320, 180], ..Settings::default() };
+    let (pose, plan) = obscura::director::stage(&bench.settings, &bench.scene, &Capabilities::complete()).unwrap();
+    (bench.pose, bench.plan) = (pose, Some(plan));
+    bench
+}
+
+/// Every label's words, in the order they stand in.
+fn labels(harness: &Harness<'_, Bench>) -> Vec<String> {
+    harness.query_all_by_role(Role::Label).filter_map(|node| node.value()).collect()
+}
+
+#[test]
+fn the_table_of_casters_says_what_the_report_says() {
+    for light in 0..3 {
+        let mut harness = open(planned(Show::Final, light));
+        harness.get_by_label("Culling").click();
+        harness.run_steps(6);
+        let bench = harness.state();
+        let (scene, plan) = (&bench.scene, bench.plan.as_ref().unwrap());
+        let report = obscura::headless::json::casters(scene, plan);
+        let rows: Vec<_> = report.into_iter().filter(|row| row.light == light).collect();
+        assert!(rows.len() > 40 && rows.iter().any(|row| row.case.is_none()), "{rows:?}");
+        let expected: Vec<_> = rows
+            .iter()
+            .flat_map(|row| {
+                let case = row.case.map_or("-".into(), |case| case.to_string());
+                [case, row.method.words().to_owned(), row.caster.clone()]
+            })
+            .collect();
+        let found = labels(&harness);
+        assert!(found.windows(expected.len()).any(|part| *part == expected), "light {light}: {found:?} without {expected:?}");
+    }
+}
+
+#[test]
+fn the_legend_counts_the_classes() {
+    let mut harness = open(planned(Show::Cases, 0));
+    harness.run_steps(2);
+    let bench = harness.state();
+    let classes = cases::classes(&bench.scene, &bench.plan.as_ref().unwrap().volumes, 0, true);
+    assert_eq!(classes.len(), bench.scene.instances().count());
+    for class in Class::ALL {
+        let count = classes.iter().filter(|it| **it == class).count();
+        assert!(harness.query_by_label(&format!("{count} {}", class.name())).is_some(), "{class:?}");
+    }
 }
 
 #[test]

@@ -193,6 +193,10 @@ pub enum Program {
     NearPlane,
     /// Full screen, before the picture: one colour where the stencil lets it through.
     Dark,
+    /// Surfaces in one colour, shaded by their slope alone.
+    Tint,
+    /// The same, with fragments below the alpha cutoff left out.
+    TintMasked,
 }
 
 /// What a step draws, by number.

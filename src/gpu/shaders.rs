@@ -28,6 +28,7 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("labels.wgsl", include_str!("../../shaders/labels.wgsl")),
     ("stencil_only.wgsl", include_str!("../../shaders/stencil_only.wgsl")),
     ("wide.wgsl", include_str!("../../shaders/wide.wgsl")),
+    ("tint.wgsl", include_str!("../../shaders/tint.wgsl")),
     ("dark.wgsl", include_str!("../../shaders/dark.wgsl")),
     ("output.wgsl", include_str!("../../shaders/output.wgsl")),
 ];
@@ -129,6 +130,8 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::WideOverflow, "wide.wgsl", "full_screen_vertex", "wide_overflow", Vertices::None, &[]),
     entry(Program::NearPlane, "volume.wgsl", "near_plane_vertex", "volume_count", Vertices::Volume, &[]),
     entry(Program::Dark, "dark.wgsl", "full_screen_vertex", "dark", Vertices::None, &[]),
+    entry(Program::Tint, "tint.wgsl", "surface_vertex", "tint", Vertices::Surface, SURFACE),
+    entry(Program::TintMasked, "tint.wgsl", "surface_vertex", "tint_masked", Vertices::Surface, SURFACE),
 ];
 
 /// The entry of a program.

@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::cli::render_command;
-use crate::frame::plan::{Method, Reason};
+use crate::frame::plan::{Case, Method, Reason};
 use crate::frame::{Camera, Capabilities, FramePlan, Lack};
 use crate::gpu::FrameStats;
 use crate::scene::Scene;
@@ -51,6 +51,8 @@ pub struct Report {
     pub steps: Vec<StepReport>,
     /// Light by light, how the shadow volumes were counted.
     pub volumes: Vec<LightReport>,
+    /// Caster by caster and light by light, the same.
+    pub casters: Vec<CasterReport>,
     /// What the GPU was given.
     pub frame: FrameStats,
     /// How long it took.
@@ -88,6 +90,22 @@ pub struct Counted {
     pub words: &'static str,
     /// How many.
     pub casters: usize,
+}
+
+/// One caster before one light, as the panel's table has it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct CasterReport {
+    /// The name of its node.
+    pub caster: String,
+    /// The light's index in the scene. Of a light with a size this is the point that is looked at
+    /// (`--light-sample`); its other points are not listed.
+    pub light: usize,
+    /// M's case, 1 to 3; none where it is not counted.
+    pub case: Option<u8>,
+    /// How it was counted.
+    pub method: Method,
+    /// Why.
+    pub reason: Reason,
 }
 
 /// Milliseconds of wall clock. The first frame compiles its pipelines; the second is what a
@@ -139,6 +157,7 @@ impl Report {
             notes: plan.notes.clone(),
             steps: plan.steps.iter().map(|step| StepReport { label: step.label.clone(), why: step.why.clone() }).collect(),
             volumes: volumes(scene, plan),
+            casters: casters(scene, plan),
             frame,
             timings,
         }
@@ -160,6 +179,22 @@ fn volumes(scene: &Scene, plan: &FramePlan) -> Vec<LightReport> {
                 .into_iter()
                 .map(|((method, reason), casters)| Counted { method, reason, words: reason.words(), casters })
                 .collect(),
+        })
+        .collect()
+}
+
+/// Every planned caster of every light of the scene.
+#[must_use]
+pub fn casters(scene: &Scene, plan: &FramePlan) -> Vec<CasterReport> {
+    let names: Vec<_> = scene.instances().map(|(_, node, _)| node.name.as_str()).collect();
+    let of_scene = plan.volumes.iter().filter(|volume| volume.light < scene.lights.len());
+    of_scene
+        .map(|volume| CasterReport {
+            caster: names.get(volume.instance).copied().unwrap_or_default().into(),
+            light: volume.light,
+            case: volume.case.map(Case::number),
+            method: volume.method,
+            reason: volume.reason,
         })
         .collect()
 }

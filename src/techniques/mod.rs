@@ -10,6 +10,7 @@
 
 mod auto;
 pub mod beam;
+pub mod cases;
 pub mod counting;
 pub mod culling;
 mod cutout;

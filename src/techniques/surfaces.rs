@@ -195,6 +195,38 @@ pub fn finished(groups: &[SurfaceGroup], only: Option<&OnlyLight<'_>>, scissor: 
     steps
 }
 
+/// A display colour for surfaces that share it.
+#[derive(Debug, Clone, Copy)]
+pub struct Tint<'a> {
+    /// What they are.
+    pub label: &'a str,
+    /// One sentence on that.
+    pub why: &'a str,
+    /// As the picture stores it (sRGB, 0 to 1), with alpha.
+    pub color: [f32; 4],
+}
+
+/// The surfaces that `wanted` takes, in one colour and shaded by their slope alone; lays depth.
+#[must_use]
+pub fn tinted(groups: &[SurfaceGroup], tint: &Tint<'_>, wanted: impl Fn(Surface) -> bool, scissor: [u32; 4]) -> Vec<Step> {
+    let draw = |group: &SurfaceGroup, surfaces| Draw {
+        program: if group.kind.masked { Program::TintMasked } else { Program::Tint },
+        look: Look { textured: group.kind.masked && group.kind.look.textured, ..Look::default() },
+        target: Target::Scene,
+        state: State { depth: Depth::LAY, ..group.again(Blend::Replace, StencilState::IGNORE) },
+        stencil_reference: 0,
+        scissor,
+        light: None,
+        constant: tint.color,
+        set: DrawSet::Surfaces(surfaces),
+    };
+    let of_group = |group: &SurfaceGroup| {
+        let surfaces: Vec<_> = group.surfaces.iter().copied().filter(|surface| wanted(*surface)).collect();
+        (!surfaces.is_empty()).then(|| step(format!("{}{}", tint.label, group.words()), tint.why, draw(group, surfaces)))
+    };
+    groups.iter().filter_map(of_group).collect()
+}
+
 /// One light, added where its count is zero, to the surfaces that `reached` says it may reach.
 #[must_use]
 pub fn lit(

@@ -5,7 +5,7 @@ use egui::{Color32, RichText, Ui};
 use super::style::{self, field, number, point, slider};
 use super::{Desk, Panel, View};
 use crate::scene::{Extent, Light, LightKind, PosedLight};
-use crate::settings::{LightEdit, MAX_AREA_SAMPLES, Show, SlideChoice};
+use crate::settings::{LightEdit, MAX_AREA_SAMPLES, SlideChoice};
 
 /// All lights.
 pub fn lights(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_>) {
@@ -39,7 +39,7 @@ fn sizes(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
         ui.add(slider(&mut lighting.area_samples, 1..=MAX_AREA_SAMPLES))
     });
     lighting.light_sample = lighting.light_sample.min(lighting.area_samples - 1);
-    let of_one_light = matches!(desk.settings.show, Show::Stencil | Show::Shadow | Show::Overflow | Show::Volumes);
+    let of_one_light = desk.settings.show.looks_at_light();
     let looked_at = posed.get(desk.settings.light).is_some_and(|light| !light.extent.is_point());
     if of_one_light && looked_at && lighting.area_samples > 1 {
         let last = lighting.area_samples - 1;

@@ -7,6 +7,7 @@ use super::{Desk, View};
 use crate::app::keys::{Command, key_of};
 use crate::settings::Show;
 use crate::techniques::TABLE;
+use crate::techniques::cases::{self, Class};
 
 /// The techniques; the chosen one with its sentence.
 pub fn techniques(ui: &mut Ui, desk: &mut Desk<'_>) {
@@ -42,10 +43,13 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
         }
     });
     explain(ui, format!("{}.", capital(desk.settings.show.about())));
+    if desk.settings.show == Show::Cases {
+        legend(ui, desk, view);
+    }
     let lights = view.scene.map_or(&[][..], |scene| &scene.lights);
-    let of_one_light = matches!(desk.settings.show, Show::Stencil | Show::Shadow | Show::Overflow | Show::Volumes);
+    let of_one_light = desk.settings.show.looks_at_light();
     ui.add_enabled_ui(of_one_light && !lights.is_empty(), |ui| {
-        field(ui, "Light", "The light whose stencil count, shadow or volumes are shown", |ui| {
+        field(ui, "Light", "The light whose stencil count, shadow, volumes or cases are shown", |ui| {
             let name =
                 |index: usize| lights.get(index).map_or_else(|| format!("{index}"), |light| format!("{index}  {}", light.name));
             egui::ComboBox::from_id_salt("light-k")
@@ -77,6 +81,22 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
     field(ui, "Exposure", "Stops added to the scene's own exposure", |ui| {
         ui.add(slider(&mut desk.settings.exposure, -6.0..=6.0).fixed_decimals(1).suffix(" stops"))
     });
+}
+
+/// The colours of the classes, and how many instances are of each.
+fn legend(ui: &mut Ui, desk: &Desk<'_>, view: &View<'_>) {
+    let (Some(scene), Some(plan), Some(pose)) = (view.scene, view.plan, view.pose) else { return };
+    let Some(light) = pose.lights.get(desk.settings.light) else { return };
+    let classes = cases::classes(scene, &plan.volumes, desk.settings.light, light.shadows);
+    for class in Class::ALL {
+        ui.horizontal(|ui| {
+            let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(12.0), egui::Sense::hover());
+            let [r, g, b] = class.color().map(|value| (value * 255.0).round() as u8);
+            ui.painter().rect_filled(rect, 2.0, egui::Color32::from_rgb(r, g, b));
+            let count = classes.iter().filter(|it| **it == class).count();
+            ui.label(format!("{count} {}", class.name())).on_hover_text(capital(class.words()));
+        });
+    }
 }
 
 /// `words` with a capital letter.
