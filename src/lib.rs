@@ -36,7 +36,7 @@
 //!
 //! | room | what is in it |
 //! | --- | --- |
-//! | [`geometry`] | pure mathematics: bounds, the near pyramid, topology, silhouettes, volumes, the eye's count |
+//! | [`geometry`] | pure mathematics: bounds, the near pyramid, topology, silhouettes, volumes, the eye's count, mirrors and views in them |
 //! | [`scene`] | the scene and its pose, glTF import, the mesh doctor, the stock scenes |
 //! | [`frame`] | the plan's types: steps, named states, the stencil's bits, camera, validation |
 //! | [`techniques`] | one file each and a table of them: how a caster's volume is counted, and why |

@@ -303,10 +303,8 @@ fn extras_say_what_gltf_has_no_word_for() {
         {"mesh": 0, "extras": 7},
     ]);
     file.json["scenes"] = json!([{"nodes": [0, 1, 2]}]);
-    file.json["materials"] = json!([{"extras": {"mirror": true}}, {}]);
     let scene = import(&file);
     assert_eq!(scene.nodes.iter().take(3).map(|node| node.casts_shadow).collect::<Vec<_>>(), [false, true, true]);
-    assert_eq!(scene.materials.iter().map(|material| material.mirror).collect::<Vec<_>>(), [true, false, false]);
 }
 
 #[test]

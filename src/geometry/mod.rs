@@ -1,6 +1,7 @@
-//! Pure math, no GPU and no scene: bounds, frusta, mesh topology, silhouettes, shadow volumes.
+//! Pure math, no GPU and no scene: bounds, frusta, mesh topology, silhouettes, shadow volumes, mirrors.
 
 pub mod bounds;
+pub mod clip;
 pub mod cutout;
 pub mod ending;
 pub mod eye_count;
@@ -9,7 +10,9 @@ pub mod flaw;
 pub mod frustum;
 pub mod near_rectangle;
 pub mod overlap;
+pub mod planar;
 pub mod reach;
+pub mod sight;
 pub mod silhouette;
 pub mod terminator;
 pub mod topology;
@@ -21,6 +24,7 @@ pub use eye_count::{EyeCount, holding_count};
 pub use flaw::Flaw;
 pub use frustum::NearPyramid;
 pub use reach::Body;
+pub use sight::{Reflected, Sight};
 pub use silhouette::{Facing, Planes, light_in_object};
 pub use topology::{Topology, TopologyReport};
 pub use volume::{Caster, Outline, VolumeIndices, VolumeParts, VolumeScratch};

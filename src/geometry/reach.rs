@@ -33,11 +33,11 @@ pub struct Body {
     /// and of these unit directions, each going on for ever from any of the places.
     directions: ArrayVec<DVec3, 8>,
     /// All its facets, outward unit normal and offset (`n.x + w <= 0` inside); none where they are not known.
-    facets: ArrayVec<DVec4, 8>,
+    facets: ArrayVec<DVec4, 9>,
     /// More axes worth a try, unit or zero.
     axes: ArrayVec<DVec3, 16>,
     /// Directions of its edges, not unit.
-    edges: ArrayVec<DVec3, 12>,
+    edges: ArrayVec<DVec3, 16>,
 }
 
 /// Gaps smaller than this share of the coordinates are none.
@@ -86,6 +86,28 @@ impl Body {
         let inside = (corners[0] + corners[2]) - eye;
         body.sides(corners, |corner| corner - eye, inside);
         body.facets.push(facet_away((corners[1] - corners[0]).cross(corners[2] - corners[1]), corners[0], inside));
+        body
+    }
+
+    /// All that `eye` sees through a convex window: `window` are its corners in order around it, each on or
+    /// before the plane `near` (unit normal away from the eye, under which nothing is seen), `rays` the
+    /// ways from the eye through them. At most eight.
+    #[must_use]
+    pub fn through(eye: DVec3, window: &[DVec3], rays: &[DVec3], near: DVec4) -> Self {
+        let mut body = Self::default();
+        body.points.extend(window.iter().copied());
+        body.directions.extend(rays.iter().map(|ray| ray.normalize_or_zero()));
+        body.edges.extend(rays.iter().copied());
+        let inside = eye + rays.iter().sum::<DVec3>();
+        for (index, ray) in rays.iter().enumerate() {
+            // Two rays in one direction span no plane: a facet is missing then, which lets too much in.
+            let across = ray.cross(rays[(index + 1) % rays.len()]);
+            if let Some(normal) = across.try_normalize() {
+                body.facets.push(facet_away(normal, eye, inside));
+                body.edges.push(normal.cross(near.truncate()));
+            }
+        }
+        body.facets.push(-near);
         body
     }
 

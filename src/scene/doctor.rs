@@ -34,6 +34,8 @@ pub struct Report {
     pub textures: Vec<String>,
     /// How many skins bend meshes.
     pub skins: usize,
+    /// Name, and how each reflects.
+    pub mirrors: Vec<String>,
     /// One a mesh.
     pub meshes: Vec<MeshReport>,
     /// What the importer had to leave out or replace.
@@ -127,6 +129,7 @@ pub fn report(scene: &Scene) -> Report {
         blended_materials: scene.materials.iter().filter(|material| material.alpha == AlphaMode::Blend).count(),
         textures,
         skins: scene.skins.len(),
+        mirrors: scene.mirrors.iter().map(ToString::to_string).collect(),
         meshes: meshes.collect(),
         warnings: scene.warnings.clone(),
     }
@@ -153,9 +156,13 @@ impl fmt::Display for Report {
         writeln!(f, "  nodes       {} ({} show a mesh)", self.nodes, self.instances)?;
         writeln!(f, "  triangles   {} ({} vertices)", self.triangles, self.vertices)?;
         writeln!(f, "  materials   {} ({} blended)", self.materials, self.blended_materials)?;
-        for (title, entries) in
-            [("textures", &self.textures), ("lights", &self.lights), ("cameras", &self.cameras), ("animations", &self.animations)]
-        {
+        for (title, entries) in [
+            ("textures", &self.textures),
+            ("lights", &self.lights),
+            ("cameras", &self.cameras),
+            ("animations", &self.animations),
+            ("mirrors", &self.mirrors),
+        ] {
             let listed = if entries.is_empty() { "none".into() } else { entries.join(", ") };
             writeln!(f, "  {title:<10}  {listed}")?;
         }

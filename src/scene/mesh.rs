@@ -196,6 +196,15 @@ impl Mesh {
         })
     }
 
+    /// The vertices of a primitive's triangles; none where there is no such primitive.
+    pub fn triangles(&self, primitive: usize) -> impl Iterator<Item = [u32; 3]> + Clone {
+        let run = self.primitives.get(primitive).map_or(0..0, |run| {
+            let first = run.first_index as usize;
+            first..first + run.index_count as usize
+        });
+        self.indices[run].as_chunks::<3>().0.iter().copied()
+    }
+
     /// Something moves its vertices against each other.
     #[must_use]
     pub fn is_deformable(&self) -> bool {

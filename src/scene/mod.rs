@@ -12,6 +12,7 @@ mod deform;
 pub mod doctor;
 pub mod gltf;
 pub mod mesh;
+pub mod mirror;
 pub mod open;
 pub mod pose;
 pub mod slides;
@@ -20,6 +21,7 @@ pub mod stock;
 pub use animation::{Animation, AnimationChoice, Channel, Interpolation, Property};
 pub use area::{Extent, Sampling};
 pub use mesh::{Mesh, MeshError, MeshParts, MorphTarget, Primitive, SkinVertex};
+pub use mirror::{Mirror, PosedMirror, Reflective};
 pub use open::{Loading, OpenError, load_on_thread, open};
 pub use pose::{DeformedMesh, Pose, PosedLight};
 pub use slides::{BuiltInSlide, Slide};
@@ -49,6 +51,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Cameras, each placed by a node. Never empty after import.
     pub cameras: Vec<Camera>,
+    /// The mirrors among its surfaces, as the importer found them.
+    pub mirrors: Vec<Mirror>,
     /// Light from everywhere and the colour behind everything.
     pub environment: Environment,
     /// Multiplies linear colour before the tone map; chosen for the scene, settings add stops.
@@ -141,8 +145,9 @@ pub struct Material {
     pub alpha: AlphaMode,
     /// Shown in its base colour, unlit (KHR_materials_unlit).
     pub unlit: bool,
-    /// `extras {"mirror": true}`: a planar mirror, in a later version.
-    pub mirror: bool,
+    /// A mirror, where its surface is plane: `extras {"mirror": true, "reflectivity": 0.5, "tint": [1, 0.9, 0.8]}`,
+    /// the last two as needed.
+    pub mirror: Option<Reflective>,
 }
 
 impl Default for Material {
@@ -157,7 +162,7 @@ impl Default for Material {
             double_sided: false,
             alpha: AlphaMode::Opaque,
             unlit: false,
-            mirror: false,
+            mirror: None,
         }
     }
 }

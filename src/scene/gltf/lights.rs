@@ -51,7 +51,7 @@ pub(super) fn lights(
 }
 
 /// A value of the user's in `extras`.
-fn extra(extras: &Extras, key: &str) -> Option<Value> {
+pub(super) fn extra(extras: &Extras, key: &str) -> Option<Value> {
     serde_json::from_str::<Value>(extras.as_deref()?.get()).ok()?.get(key).cloned()
 }
 

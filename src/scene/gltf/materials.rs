@@ -8,13 +8,13 @@ use serde_json::Value;
 
 use super::error::{Problem, Warnings, name, part};
 use super::images::Images;
+use super::lights::extra;
 use super::mesh::{MaterialUse, UvSource};
-use crate::scene::{AlphaMode, Material};
+use crate::scene::{AlphaMode, Material, Reflective};
 
 /// A flag of the user's in `extras`.
 pub(super) fn flag(extras: &Extras, key: &str) -> Option<bool> {
-    let value: Value = serde_json::from_str(extras.as_deref()?.get()).ok()?;
-    value.get(key)?.as_bool()
+    extra(extras, key)?.as_bool()
 }
 
 /// What meshes have to know of each material, the default one last.
@@ -95,10 +95,42 @@ pub(super) fn import(
             double_sided: material.double_sided,
             alpha,
             unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
-            mirror: flag(&material.extras, "mirror").unwrap_or(false),
+            mirror: mirror(&material.extras, named, warnings),
         });
     }
     Ok(materials)
+}
+
+/// What `extras` say of mirrors: `mirror` true or false, `reflectivity` 0 to 1, `tint` linear RGB, each 0 to 1.
+fn mirror(extras: &Extras, named: impl Fn() -> String, warnings: &mut Warnings) -> Option<Reflective> {
+    let marked = extra(extras, "mirror")?;
+    let Some(marked) = marked.as_bool() else {
+        warnings.push(format!("{}: its `mirror` is neither true nor false, and it is none", named()));
+        return None;
+    };
+    if !marked {
+        return None;
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "it is in range")]
+    let share = |value: &Value| value.as_f64().filter(|share| (0.0..=1.0).contains(share)).map(|share| share as f32);
+    let mut look = Reflective::default();
+    if let Some(value) = extra(extras, "reflectivity") {
+        look.reflectivity = share(&value).unwrap_or_else(|| {
+            warnings.push(format!("{}: its reflectivity is no number from 0 to 1, and taken as 1", named()));
+            1.0
+        });
+    }
+    if let Some(value) = extra(extras, "tint") {
+        let tint = match value.as_array().map(Vec::as_slice) {
+            Some([r, g, b]) => share(r).zip(share(g)).zip(share(b)).map(|((r, g), b)| Vec3::new(r, g, b)),
+            _ => None,
+        };
+        look.tint = tint.unwrap_or_else(|| {
+            warnings.push(format!("{}: its tint is not three numbers from 0 to 1, and left out", named()));
+            Vec3::ONE
+        });
+    }
+    Some(look)
 }
 
 /// Clamped; what is no number becomes `otherwise`.

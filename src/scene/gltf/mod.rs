@@ -121,6 +121,7 @@ fn import(name: &str, bytes: &[u8], folder: &Folder) -> Result<Scene, Problem> {
     let (cameras, heights): (Vec<_>, Vec<_>) = lights::cameras(&root, &hierarchy, &mut warnings)?.into_iter().unzip();
     scene.cameras = cameras;
     staging::complete(&mut scene, &heights, &mut warnings)?;
+    scene.find_mirrors().into_iter().for_each(|refused| warnings.push(refused));
     scene.warnings = warnings.finish();
     Ok(scene)
 }

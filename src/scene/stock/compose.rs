@@ -127,7 +127,9 @@ impl Composer {
     }
 
     /// The scene, done.
-    pub(super) fn finish(self) -> Scene {
+    pub(super) fn finish(mut self) -> Scene {
+        let refused = self.scene.find_mirrors();
+        self.scene.warnings.extend(refused);
         self.scene
     }
 

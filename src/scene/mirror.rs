@@ -1,0 +1,160 @@
+//! Mirrors: which surfaces of a scene reflect, and where they are in a pose.
+//!
+//! A primitive whose material is marked a mirror is one where its triangles lie on one plane and face one
+//! way ([`crate::geometry::planar`]); shape and number do not matter. What is not is drawn as an ordinary
+//! surface, and the scene says why. Bones and morph targets may bend a mirror: then it is asked anew in
+//! each pose.
+
+use std::fmt;
+
+use glam::{DVec3, DVec4, Vec3};
+use thiserror::Error;
+
+use super::{AlphaMode, Mesh, Node, Pose, Scene};
+use crate::geometry::planar::{self, Uneven};
+
+/// How a material reflects.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reflective {
+    /// How much of what is seen there is the reflection: 1 all, 0 none; the rest is the surface's own look.
+    pub reflectivity: f32,
+    /// Multiplies the reflection; linear RGB, each 0 to 1.
+    pub tint: Vec3,
+}
+
+impl Default for Reflective {
+    /// A perfect mirror.
+    fn default() -> Self {
+        Self { reflectivity: 1.0, tint: Vec3::ONE }
+    }
+}
+
+/// A planar mirror of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mirror {
+    /// Its node's name.
+    pub name: String,
+    /// The node that shows it.
+    pub node: usize,
+    /// The same, as [`Scene::instances`] counts.
+    pub instance: usize,
+    /// Which of the mesh's primitives it is.
+    pub primitive: usize,
+    /// Object space, undeformed: unit normal towards the reflecting side, and offset.
+    pub plane: DVec4,
+    /// It reflects on both sides.
+    pub double_sided: bool,
+    /// How much, and in what colour.
+    pub look: Reflective,
+}
+
+/// A mirror in the world, at one point in time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PosedMirror {
+    /// Unit normal towards the reflecting side, and offset, metres.
+    pub plane: DVec4,
+    /// In the mesh's order.
+    pub triangles: Vec<[DVec3; 3]>,
+}
+
+/// Why a surface is no mirror.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Refusal {
+    /// There is no such node, or it shows no such primitive.
+    #[error("there is no such surface")]
+    Missing,
+    /// It is drawn over what lies behind.
+    #[error("its material is blended")]
+    Blended,
+    /// Masked texels would have to be holes in the reflection.
+    #[error("its material has holes (alpha mask)")]
+    Masked,
+    /// Not on one plane.
+    #[error(transparent)]
+    Uneven(#[from] Uneven),
+}
+
+impl Mirror {
+    /// The surface of a node's primitive as a mirror, whatever its material is marked.
+    ///
+    /// # Errors
+    /// Why it cannot be one.
+    pub fn of(scene: &Scene, node: usize, primitive: usize, look: Reflective) -> Result<Self, Refusal> {
+        let (instance, (_, shown, mesh)) =
+            scene.instances().enumerate().find(|(_, (index, ..))| *index == node).ok_or(Refusal::Missing)?;
+        Self::shown(scene, (instance, node, shown, mesh), primitive, look)
+    }
+
+    fn shown(
+        scene: &Scene,
+        (instance, node, shown, mesh): (usize, usize, &Node, &Mesh),
+        primitive: usize,
+        look: Reflective,
+    ) -> Result<Self, Refusal> {
+        let run = mesh.primitives.get(primitive).ok_or(Refusal::Missing)?;
+        let material = scene.materials.get(run.material).ok_or(Refusal::Missing)?;
+        match material.alpha {
+            AlphaMode::Opaque => {}
+            AlphaMode::Mask(_) => return Err(Refusal::Masked),
+            AlphaMode::Blend => return Err(Refusal::Blended),
+        }
+        let triangles = mesh.triangles(primitive).map(|corners| corners.map(|vertex| mesh.positions[vertex as usize]));
+        let plane = planar::plane_of(triangles, material.double_sided)?;
+        let double_sided = material.double_sided;
+        Ok(Self { name: shown.name.clone(), node, instance, primitive, plane, double_sided, look })
+    }
+
+    /// Where it is in a pose of its scene.
+    ///
+    /// # Errors
+    /// Its bones or morph targets have bent it.
+    pub fn posed(&self, scene: &Scene, pose: &Pose) -> Result<PosedMirror, Refusal> {
+        let mesh = scene.nodes.get(self.node).and_then(|node| node.mesh).map(|mesh| &scene.meshes[mesh]);
+        let mesh = mesh.ok_or(Refusal::Missing)?;
+        let world_from_object = pose.world_from_object.get(self.node).ok_or(Refusal::Missing)?;
+        let positions = pose.positions(scene, self.node);
+        let triangles = mesh.triangles(self.primitive).map(|corners| corners.map(|vertex| positions[vertex as usize]));
+        let bent = pose.deformed.get(self.node).is_some_and(Option::is_some);
+        let plane = if bent { planar::plane_of(triangles.clone(), self.double_sided)? } else { self.plane };
+        let in_world = |corner: Vec3| world_from_object.transform_point3(corner.as_dvec3());
+        Ok(PosedMirror {
+            plane: planar::transformed(plane, world_from_object),
+            triangles: triangles.map(|corners| corners.map(in_world)).collect(),
+        })
+    }
+}
+
+impl Scene {
+    /// Looks for the surfaces that are marked mirrors and fills [`Scene::mirrors`]; says which are none, and
+    /// why.
+    pub(super) fn find_mirrors(&mut self) -> Vec<String> {
+        let (mut mirrors, mut refused) = (Vec::new(), Vec::new());
+        for (instance, (node, shown, mesh)) in self.instances().enumerate() {
+            for (primitive, run) in mesh.primitives.iter().enumerate() {
+                let Some(material) = self.materials.get(run.material) else { continue };
+                let Some(look) = material.mirror else { continue };
+                match Mirror::shown(self, (instance, node, shown, mesh), primitive, look) {
+                    Ok(mirror) => mirrors.push(mirror),
+                    Err(why) => {
+                        refused.push(format!("node {:?}, material {:?}: no mirror: {why}", shown.name, material.name));
+                    }
+                }
+            }
+        }
+        self.mirrors = mirrors;
+        refused
+    }
+}
+
+impl fmt::Display for Mirror {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} (reflectivity {}", self.name, self.look.reflectivity)?;
+        if self.look.tint != Vec3::ONE {
+            write!(f, ", tint {} {} {}", self.look.tint.x, self.look.tint.y, self.look.tint.z)?;
+        }
+        if self.double_sided {
+            write!(f, ", both sides")?;
+        }
+        write!(f, ")")
+    }
+}
