@@ -118,7 +118,15 @@ fn stencil_colors(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     if scene.a == 0.0 {
         return vec4f(decoded(vec3f(0.02, 0.022, 0.03)), 1.0);
     }
-    let count = textureLoad(scene_stencil, vec2i(pixel.xy), 0).r;
+    let stored = textureLoad(scene_stencil, vec2i(pixel.xy), 0).r;
+    // Beyond the light's depth bounds nothing is counted: hatched, where the plan has a bit for it.
+    let beyond = u32(draw.constant.r);
+    if (stored & beyond) != 0u {
+        let stripe = ((i32(pixel.x) + i32(pixel.y)) / max(i32(frame.size.y) / 180, 1)) % 4 == 0;
+        let grey = dot(scene.rgb * frame.exposure, vec3f(0.25, 0.5, 0.25)) * 0.5;
+        return vec4f(vec3f(grey) + select(vec3f(0.0), vec3f(0.05, 0.06, 0.09), stripe), 1.0);
+    }
+    let count = stored & ~beyond;
     // Where the count is zero the scene shows through, dimly, so that one sees what is counted.
     let ambient = scene.rgb * frame.exposure;
     let hint = select(vec3f(0.0), vec3f(dot(ambient, vec3f(0.25, 0.5, 0.25))), count == 0u);

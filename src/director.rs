@@ -15,17 +15,17 @@ use crate::frame::state::Winding;
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::validate::{Fault, validate};
 use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, Gather, Step, Target};
-use crate::geometry::Aabb;
 use crate::geometry::ending::ending_plane;
 use crate::geometry::frustum::NearPyramid;
+use crate::geometry::{Aabb, Enclosure};
 use crate::scene::area::sequence;
 use crate::scene::pose::pose;
 use crate::scene::{LightKind, Pose, Sampling, Scene};
 use crate::settings::{Accumulation, MAX_FRAMES, Settings, Show, Technique, Texturing};
 use crate::techniques::cases::{self, Class};
 use crate::techniques::counting::LightCount;
-use crate::techniques::culling::{Audience, Stalls, light_rect};
-use crate::techniques::{self, Caster, counting, labels, show, surfaces, wide};
+use crate::techniques::culling::{Audience, Interest, Stalls, light_rect};
+use crate::techniques::{self, Caster, counting, depth_bounds, labels, show, surfaces, wide};
 
 /// Why a frame cannot be planned: one line each.
 #[derive(Debug, Error)]
@@ -148,7 +148,7 @@ pub fn plan(
             }
             frame.extend(count.steps);
             if shows_stencil {
-                frame.push(show::stencil_colors(whole));
+                frame.push(show::stencil_colors(count.budget, whole));
             } else {
                 let scissor = frame.light_rect(settings.light);
                 if let Some(scissor) = scissor {
@@ -292,7 +292,36 @@ impl<'a> Frame<'a> {
         let near_pyramid = NearPyramid::of(camera.eye, camera.near_rectangle());
         let receivers = scene.bounds(pose).union(&Aabb::around(camera.eye, camera.eye));
         let stalls = Stalls::new(scene, pose, &plan.views[0]);
-        Self { settings, scene, pose, capabilities, near_pyramid, stalls, receivers, plan }
+        let mut frame = Self { settings, scene, pose, capabilities, near_pyramid, stalls, receivers, plan };
+        frame.choose_bits();
+        frame
+    }
+
+    /// One bit less to count in where lights' bounds are marked.
+    fn choose_bits(&mut self) {
+        if !self.settings.culling.depth_bounds || techniques::row(self.settings.technique).darkens.is_some() {
+            return;
+        }
+        let lights = &self.pose.lights;
+        let marked = (0..lights.len()).any(|light| lights[light].on && lights[light].shadows && self.solid(light).is_some());
+        if marked {
+            self.plan.budget = self.plan.budget.with_bounds();
+            let bits = self.plan.budget.count_mask.count_ones();
+            self.plan.notes.push(format!("depth bounds take a bit of the stencil: {bits} are left to count in"));
+        } else {
+            self.plan.notes.push("no light has depth bounds here: none has an end that could be marked".into());
+        }
+    }
+
+    /// What bounds a light in depth.
+    fn solid(&self, light: usize) -> Option<Enclosure> {
+        let bounds = self.settings.culling.light_bounds;
+        let interest = match self.settings.show {
+            // The stencil is shown with its mark.
+            Show::Stencil => Interest::InRange,
+            show => show.into(),
+        };
+        depth_bounds::enclosure(&self.pose.lights[light], bounds, interest, &self.plan.views[0].camera)
     }
 
     fn whole(&self) -> [u32; 4] {
@@ -362,7 +391,7 @@ impl<'a> Frame<'a> {
             .casters(light)
             .map(|(casters, scissor)| counting::count_light(row, &casters, &self.ask(light, scissor), &mut volumes));
         self.plan.volumes = volumes;
-        let Some(count) = count else { return LightCount { budget: self.plan.budget, ..LightCount::default() } };
+        let Some(count) = count else { return LightCount { budget: self.plan.budget.without_bounds(), ..LightCount::default() } };
         // The points of one light have much the same to say.
         let about = format!("light {}: ", self.pose.lights[light].of);
         if !self.plan.notes.iter().any(|note| note.starts_with(&about)) {
@@ -442,13 +471,16 @@ impl<'a> Frame<'a> {
 
     fn ask(&self, light: usize, scissor: [u32; 4]) -> counting::Ask<'a> {
         let counting = self.settings.counting;
+        let budget = self.plan.budget;
+        let solid = if budget.beyond_mask == 0 { None } else { self.solid(light) };
         counting::Ask {
             capabilities: self.capabilities,
             light,
             scissor,
             apart: self.settings.culling.caster_scissors,
             samples: self.plan.samples,
-            budget: self.plan.budget,
+            budget: if solid.is_some() { budget } else { budget.without_bounds() },
+            solid,
             overflow: counting.overflow,
             values: self.settings.show == Show::Stencil,
         }

@@ -74,6 +74,7 @@
 //!   bit   7 6 5 4 3 2 1 0
 //!         [  shadow count ]      modulo 256; mirrors will take the high bits
 //!         V [shadow count ]      counting in batches: V, shadowed by a batch before; modulo 128
+//!         B [shadow count ]      within depth bounds: B, beyond the light's bounds, nothing is counted
 //! ```
 //!
 //! [`frame::stencil`] owns them; no other code writes a mask. Counting wraps, so the order of faces does

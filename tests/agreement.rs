@@ -194,7 +194,7 @@ fn auto_and_z_fail_with_everything_culled_draw_what_z_fail_draws_without() {
         for view in 0..CULLED_VIEWS_PER_SCENE {
             let settings = self::view(&scene, view, &mut random);
             let mut unculled = Settings { technique: Technique::ZFail, ..settings.clone() };
-            unculled.culling = Culling { on: false, light_bounds: LightBounds::None, caster_scissors: false };
+            unculled.culling = Culling { on: false, light_bounds: LightBounds::None, ..Culling::default() };
             // Z-fail itself leaves caps out; auto rarely comes to it.
             let technique = if view % 3 == 2 { Technique::ZFail } else { Technique::Auto };
             let mut culled = Settings { technique, ..settings.clone() };
@@ -244,4 +244,89 @@ fn auto_and_z_fail_with_everything_culled_draw_what_z_fail_draws_without() {
     assert!(of(Reason::OutOfView) > 100 && of(Reason::OutOfRange) > 100, "{met:?}");
     assert!(of(Reason::ReachesNothing) > 0 && of(Reason::NearPlaneClear) > 500, "{met:?}");
     assert!(caps_left_out > 0 && after < before);
+}
+
+const BOUNDED_VIEWS_PER_SCENE: usize = 8;
+/// Set in the stencil where a surface lies beyond its light's depth bounds.
+const BEYOND: u8 = 0x80;
+
+/// Depth bounds must not change a pixel, whatever counts within them; and must leave pixels out, or they
+/// are worth nothing.
+#[test]
+fn within_depth_bounds_every_technique_draws_what_it_draws_without() {
+    const TECHNIQUES: [Technique; 8] = [
+        Technique::ZFail,
+        Technique::ExactZPass,
+        Technique::Auto,
+        Technique::Wide,
+        Technique::OneSided,
+        Technique::PerPolygon,
+        Technique::ZPass,
+        Technique::Parity,
+    ];
+    let mut stage = Stage::new();
+    let mut random = Random(20_031_106);
+    let (mut counted, mut left_out, mut cones, mut in_batches, mut starts) = (0, 0, 0, 0, 0);
+    for (row, number) in stock::TABLE.iter().zip(0..) {
+        let scene = stock::build(row.name).unwrap().unwrap();
+        if scene.lights.iter().all(|light| light.kind == LightKind::Directional) {
+            continue;
+        }
+        stage.set_scene(&scene);
+        for view in 0..BOUNDED_VIEWS_PER_SCENE {
+            // Such a view has a light that ends within the scene, unless it is directional; every other one a spot,
+            // where there are any, to be bounded by its cone.
+            let settings = std::iter::repeat_with(|| self::view(&scene, 3, &mut random));
+            let is_spot = |light: usize| matches!(scene.lights[light].kind, LightKind::Spot { .. });
+            let any_spot = view % 2 == 1 && (0..scene.lights.len()).any(is_spot);
+            let wanted = |settings: &Settings| !settings.lights.is_empty() && (!any_spot || is_spot(settings.light));
+            let mut settings = settings.into_iter().find(wanted).unwrap();
+            settings.technique = TECHNIQUES[(view + number) % TECHNIQUES.len()];
+            settings.culling.light_bounds =
+                if view % 2 == 1 { LightBounds::Tight } else { [LightBounds::Sphere, LightBounds::Box][view / 2 % 2] };
+            // One bit or two: batch after batch.
+            let bits = if view % 3 == 2 { 1 + view as u32 % 2 } else { 8 };
+            settings.counting = Counting { bits, overflow: Overflow::Exact };
+            let mut bounded = settings.clone();
+            bounded.culling.depth_bounds = true;
+            let told = || command(row.name, &bounded);
+
+            let light = settings.light;
+            let by = |stage: &mut Stage, settings: &Settings, show| stage.shoot(&Settings { show, ..settings.clone() }, &scene);
+            let verdict = by(&mut stage, &settings, Show::Shadow);
+            let found = by(&mut stage, &bounded, Show::Shadow);
+            assert!(found.image == verdict.image, "the verdict: {}", told());
+            in_batches += usize::from(found.plan.steps.iter().any(|step| step.label.contains("collapse")));
+            let counts = found.plan.volumes.iter().any(|volume| volume.method != Method::Dropped);
+            let solid = found.plan.depth_bounds(light);
+            assert_eq!(solid.is_some(), counts, "{}", told());
+
+            by(&mut stage, &settings, Show::Stencil);
+            let expected = stage.stencil();
+            let shot = by(&mut stage, &bounded, Show::Stencil);
+            starts += usize::from(shot.plan.volumes.iter().any(|volume| volume.holds_eye != 0));
+            // A field of eight bits is one of seven here.
+            let field = shot.plan.budget.shadow_mask() & !BEYOND;
+            for ((pixel, stencil), expected) in verdict.image.pixels().zip(stage.stencil()).zip(expected) {
+                let reached = pixel.0[0] != 128;
+                assert!(!reached || stencil & BEYOND == 0, "a surface that the light reaches is not marked: {}", told());
+                if reached && settings.counting.bits == 8 {
+                    assert_eq!(stencil & field, expected & field, "{}", told());
+                }
+                counted += usize::from(reached);
+                left_out += usize::from(stencil & BEYOND != 0);
+            }
+
+            let picture = by(&mut stage, &settings, Show::Final);
+            let found = by(&mut stage, &bounded, Show::Final);
+            let differ = found.image.pixels().zip(picture.image.pixels()).filter(|(a, b)| a != b).count();
+            assert_eq!(differ, 0, "the picture: {}", told());
+            cones += usize::from(found.plan.depth_bounds(light).is_some_and(|solid| solid.name() == "cone"));
+        }
+    }
+    let met = format!(
+        "{counted} pixels within bounds, {left_out} beyond; {cones} cones, {in_batches} in batches, {starts} from the eye's count"
+    );
+    println!("{met}");
+    assert!(counted > 50_000 && left_out > 50_000 && cones > 0 && in_batches > 0 && starts > 0, "{met}");
 }

@@ -75,6 +75,35 @@ fn each_show_plans_as_written() {
     }
 }
 
+/// With depth bounds: the second light has an end.
+fn bounded() -> FramePlan {
+    let mut settings = Settings { technique: Technique::Auto, size: [320, 180], ..Settings::default() };
+    settings.culling.depth_bounds = true;
+    plan(&varied(), &settings)
+}
+
+#[test]
+fn depth_bounds_plan_as_written() {
+    let plan = bounded();
+    assert!(plan.depth_bounds(0).is_none() && plan.depth_bounds(1).is_some());
+    assert_text("depth-bounds", &plan);
+}
+
+#[test]
+fn bounds_are_marked_once_and_before_they_are_asked_for() {
+    let plan = bounded();
+    let mark = plan.steps.iter().position(|step| step.label.contains("mark")).unwrap();
+    let spoiled = |change: &dyn Fn(&mut FramePlan)| {
+        let mut plan = plan.clone();
+        change(&mut plan);
+        validate(&plan).unwrap_err().what
+    };
+    assert!(spoiled(&|plan| _ = plan.steps.remove(mark)).contains("not marked"));
+    assert!(spoiled(&|plan| plan.steps.insert(mark, plan.steps[mark].clone())).contains("once"));
+    assert!(spoiled(&|plan| plan.steps.swap(mark, mark + 1)).contains("not marked"));
+    assert!(spoiled(&|plan| plan.budget = Default::default()).contains("theirs"));
+}
+
 #[test]
 fn the_eye_in_three_shadows_starts_from_three() {
     let mut build = Build::new();

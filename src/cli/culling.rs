@@ -18,6 +18,9 @@ pub(super) struct CullingArguments {
     /// Counts each volume in a step of its own, behind a scissor of its own
     #[arg(long)]
     caster_scissors: bool,
+    /// Marks the pixels whose surface lies within a light's bounds and counts only there: on or off [default: off]
+    #[arg(long, value_name = "SWITCH")]
+    depth_bounds: Option<String>,
 }
 
 impl CullingArguments {
@@ -28,13 +31,20 @@ impl CullingArguments {
             culling.light_bounds = by_name("light bounds", name, LightBounds::ALL, LightBounds::name)?;
         }
         culling.caster_scissors |= self.caster_scissors;
+        if let Some(name) = &self.depth_bounds {
+            culling.depth_bounds = by_name("depth bounds", name, [false, true], switch)?;
+        }
         Ok(())
     }
 }
 
+fn switch(on: bool) -> &'static str {
+    if on { "on" } else { "off" }
+}
+
 /// The options that give `culling` again.
 pub(super) fn write(culling: &Culling, line: &mut Line) {
-    let Culling { on, light_bounds, caster_scissors } = *culling;
+    let Culling { on, light_bounds, caster_scissors, depth_bounds } = *culling;
     if !on {
         line.word("--no-culling");
     }
@@ -43,5 +53,8 @@ pub(super) fn write(culling: &Culling, line: &mut Line) {
     }
     if caster_scissors {
         line.word("--caster-scissors");
+    }
+    if depth_bounds {
+        line.option("--depth-bounds", switch(depth_bounds));
     }
 }

@@ -49,7 +49,7 @@ fn every_argument_reaches_its_setting() {
          --eye -1,2.5,3e2 --target 0,0,-1 --fov 33.5 --far 7.5 --time 1.25 --animation 3 --floor --exposure -1.5 \
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --light-sample 3 --accumulate 256 \
-         --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors \
+         --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on \
          --light-edit 1:on=true --adapter llvm --shaders wgsl",
     );
     let edit = LightEdit {
@@ -88,7 +88,7 @@ fn every_argument_reaches_its_setting() {
             texturing: Texturing::Once,
             labels: true,
         },
-        culling: Culling { on: false, light_bounds: LightBounds::Sphere, caster_scissors: true },
+        culling: Culling { on: false, light_bounds: LightBounds::Sphere, caster_scissors: true, depth_bounds: true },
         adapter: Some("llvm".into()),
         shaders: Some("wgsl".into()),
     };
@@ -358,8 +358,9 @@ fn any_settings() -> impl Strategy<Value = Settings> {
                 labels,
             })
         });
-    let culling = (any::<bool>(), prop::sample::select(&LightBounds::ALL[..]), any::<bool>())
-        .prop_map(|(on, light_bounds, caster_scissors)| Culling { on, light_bounds, caster_scissors });
+    let culling = (any::<bool>(), prop::sample::select(&LightBounds::ALL[..]), any::<bool>(), any::<bool>()).prop_map(
+        |(on, light_bounds, caster_scissors, depth_bounds)| Culling { on, light_bounds, caster_scissors, depth_bounds },
+    );
     let rest = (
         prop::collection::btree_map(any::<usize>(), any_edit(), 0..4),
         lighting,

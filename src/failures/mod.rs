@@ -89,7 +89,7 @@ pub fn while_on(settings: &Settings) -> Cow<'_, Settings> {
         Some(failure) => Cow::Owned(Settings {
             technique: row(failure).technique,
             // What is wrong on purpose is not left out for meeting nothing.
-            culling: Culling { on: false, ..settings.culling },
+            culling: Culling { on: false, depth_bounds: false, ..settings.culling },
             counting: Counting { overflow: Overflow::Naive, ..settings.counting },
             ..settings.clone()
         }),

@@ -6,11 +6,11 @@ use serde::Serialize;
 use super::camera::Camera;
 use super::state::Winding;
 use super::stencil::BitBudget;
-use super::step::{Action, Draw, Part, Step};
+use super::step::{Action, Draw, DrawSet, Part, Step};
 use super::validate::Rule;
 use crate::geometry::cutout::{CutoutPlane, Throw};
 use crate::geometry::volume::Outline;
-use crate::geometry::{Flaw, VolumeParts};
+use crate::geometry::{Enclosure, Flaw, VolumeParts};
 use crate::settings::Accumulation;
 
 /// Everything that one frame does, in order: ids and values only.
@@ -304,6 +304,15 @@ impl Reason {
 }
 
 impl FramePlan {
+    /// What bounds a light in depth, where that is marked in the stencil.
+    #[must_use]
+    pub fn depth_bounds(&self, light: usize) -> Option<&Enclosure> {
+        self.draws().find_map(|(_, draw)| match &draw.set {
+            DrawSet::Enclosure(solid) if draw.light == Some(light) => Some(solid),
+            _ => None,
+        })
+    }
+
     /// The draws, in order, with their steps.
     pub fn draws(&self) -> impl Iterator<Item = (&Step, &Draw)> {
         self.steps.iter().filter_map(|step| match &step.action {

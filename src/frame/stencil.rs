@@ -8,7 +8,11 @@
 //!   bit   7 6 5 4 3 2 1 0
 //!         [ shadow count  ]      modulo 256
 //!         V [shadow count ]      V: shadowed by a batch before; modulo 128
+//!         B [shadow count ]      B: beyond the light's depth bounds; modulo 128
+//!         B V [shadow count ]    both; modulo 64
 //! ```
+//!
+//! All of them are zero where the light shines, so that one comparison with zero asks for all.
 //!
 //! A light whose volumes could lie over one pixel more often than the field can tell apart is counted
 //! in batches ([`BitBudget::batched`]): after each, one full-screen step ([`StencilState::collapse`])
@@ -26,6 +30,11 @@ pub struct BitBudget {
     /// One bit above the field, or none: the pixel was found in shadow by a batch of volumes that is
     /// no longer counted.
     pub verdict_mask: u8,
+    /// The highest bit, or none: the pixel's surface lies beyond the light's bounds, where nothing is
+    /// counted ([`crate::techniques::depth_bounds`]).
+    pub beyond_mask: u8,
+    /// Whether the light has bounds that are marked there; others leave the bit as it is.
+    pub bounded: bool,
 }
 
 impl Default for BitBudget {
@@ -48,7 +57,28 @@ impl BitBudget {
                     bits
                 }),
             verdict_mask: 0,
+            beyond_mask: 0,
+            bounded: false,
         }
+    }
+
+    /// The same with the highest bit for what lies beyond the light's bounds; a field that took it
+    /// has one bit less.
+    #[must_use]
+    pub const fn with_bounds(self) -> Self {
+        Self { count_mask: self.count_mask & !BEYOND, beyond_mask: BEYOND, bounded: true, ..self }
+    }
+
+    /// The same for a light whose bounds are not marked.
+    #[must_use]
+    pub const fn without_bounds(self) -> Self {
+        Self { bounded: false, ..self }
+    }
+
+    /// The bit that tells what lies beyond the light's bounds, where those are marked.
+    #[must_use]
+    pub const fn beyond(self) -> u8 {
+        if self.bounded { self.beyond_mask } else { 0 }
     }
 
     /// The largest count that the field tells from all smaller ones.
@@ -63,20 +93,28 @@ impl BitBudget {
         self.shadow_mask() | self.batched().shadow_mask()
     }
 
-    /// The field and the verdict bit.
+    /// All that is zero where the light shines: the field, the verdict bit, and the bounds'.
     #[must_use]
     pub const fn shadow_mask(self) -> u8 {
-        self.count_mask | self.verdict_mask
+        self.count_mask | self.verdict_mask | self.beyond()
+    }
+
+    /// What counting asks of the stored value: the bounds' bit; without one it asks nothing, of `counted`.
+    const fn asked(self, counted: u8) -> u8 {
+        if self.bounded { self.beyond_mask } else { counted }
     }
 
     /// The same with a verdict bit: the bit above the field, or the field's own highest where there
     /// is none above it.
     #[must_use]
     pub const fn batched(self) -> Self {
-        let count_mask = if self.count_mask == u8::MAX { u8::MAX >> 1 } else { self.count_mask };
-        Self { count_mask, verdict_mask: count_mask + 1 }
+        let count_mask = self.count_mask & if self.beyond_mask == 0 { 0x7f } else { 0x3f };
+        Self { count_mask, verdict_mask: count_mask + 1, ..self }
     }
 }
+
+/// The bit that bounds take.
+const BEYOND: u8 = 0x80;
 
 /// What happens to the stored value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
@@ -114,8 +152,14 @@ pub struct StencilFace {
 }
 
 impl StencilFace {
-    const fn count(depth_fail: StencilOp, pass: StencilOp) -> Self {
+    const fn always(depth_fail: StencilOp, pass: StencilOp) -> Self {
         Self { compare: Compare::Always, fail: StencilOp::Keep, depth_fail, pass }
+    }
+
+    /// Counts within the light's bounds only, where they are marked.
+    const fn count(budget: BitBudget, depth_fail: StencilOp, pass: StencilOp) -> Self {
+        let compare = if budget.bounded { Compare::Equal } else { Compare::Always };
+        Self { compare, fail: StencilOp::Keep, depth_fail, pass }
     }
 
     const fn test(compare: Compare) -> Self {
@@ -147,9 +191,9 @@ impl StencilState {
     #[must_use]
     pub const fn count_z_pass(budget: BitBudget) -> Self {
         Self {
-            front: StencilFace::count(Keep, IncrementWrap),
-            back: StencilFace::count(Keep, DecrementWrap),
-            read_mask: budget.count_mask,
+            front: StencilFace::count(budget, Keep, IncrementWrap),
+            back: StencilFace::count(budget, Keep, DecrementWrap),
+            read_mask: budget.asked(budget.count_mask),
             write_mask: budget.count_mask,
         }
     }
@@ -165,9 +209,9 @@ impl StencilState {
     #[must_use]
     pub const fn count_z_fail(budget: BitBudget) -> Self {
         Self {
-            front: StencilFace::count(DecrementWrap, Keep),
-            back: StencilFace::count(IncrementWrap, Keep),
-            read_mask: budget.count_mask,
+            front: StencilFace::count(budget, DecrementWrap, Keep),
+            back: StencilFace::count(budget, IncrementWrap, Keep),
+            read_mask: budget.asked(budget.count_mask),
             write_mask: budget.count_mask,
         }
     }
@@ -185,25 +229,25 @@ impl StencilState {
     /// one of them must be culled (K 6.3, L, C). One more behind the surface: for back faces.
     #[must_use]
     pub const fn raise_behind(budget: BitBudget) -> Self {
-        Self::one_sided(budget.count_mask, StencilFace::count(IncrementWrap, Keep))
+        Self::one_sided(budget, budget.count_mask, StencilFace::count(budget, IncrementWrap, Keep))
     }
 
     /// The other half of [`Self::raise_behind`]: one less behind the surface, for front faces.
     #[must_use]
     pub const fn lower_behind(budget: BitBudget) -> Self {
-        Self::one_sided(budget.count_mask, StencilFace::count(DecrementWrap, Keep))
+        Self::one_sided(budget, budget.count_mask, StencilFace::count(budget, DecrementWrap, Keep))
     }
 
     /// As [`Self::raise_behind`], but clamped, as before wrapping operations were common (B).
     #[must_use]
     pub const fn raise_behind_clamped(budget: BitBudget) -> Self {
-        Self::one_sided(budget.count_mask, StencilFace::count(StencilOp::IncrementClamp, Keep))
+        Self::one_sided(budget, budget.count_mask, StencilFace::count(budget, StencilOp::IncrementClamp, Keep))
     }
 
     /// As [`Self::lower_behind`], but clamped (B).
     #[must_use]
     pub const fn lower_behind_clamped(budget: BitBudget) -> Self {
-        Self::one_sided(budget.count_mask, StencilFace::count(StencilOp::DecrementClamp, Keep))
+        Self::one_sided(budget, budget.count_mask, StencilFace::count(budget, StencilOp::DecrementClamp, Keep))
     }
 
     /// Passes where the count is not the reference, and makes it the reference everywhere (B's dark quad).
@@ -215,17 +259,36 @@ impl StencilState {
             depth_fail: StencilOp::Replace,
             pass: StencilOp::Replace,
         };
-        Self::one_sided(budget.count_mask, face)
+        Self { front: face, back: face, read_mask: budget.count_mask, write_mask: budget.count_mask }
     }
 
     /// Parity (K 6.1): every face before the surface turns the lowest bit over, whichever way it looks.
     #[must_use]
     pub const fn invert_z_pass(budget: BitBudget) -> Self {
-        Self::one_sided(budget.count_mask & 1, StencilFace::count(Keep, StencilOp::Invert))
+        Self::one_sided(budget, budget.count_mask & 1, StencilFace::count(budget, Keep, StencilOp::Invert))
     }
 
-    const fn one_sided(mask: u8, face: StencilFace) -> Self {
-        Self { front: face, back: face, read_mask: mask, write_mask: mask }
+    const fn one_sided(budget: BitBudget, write_mask: u8, face: StencilFace) -> Self {
+        Self { front: face, back: face, read_mask: budget.asked(write_mask), write_mask }
+    }
+
+    /// A convex solid about what the light reaches, in one draw of both its sides: the pixel's surface
+    /// lies within where one face is behind it, beyond where it is none or two. Every face behind it turns
+    /// the bit over.
+    #[must_use]
+    pub const fn mark_bounds(budget: BitBudget) -> Self {
+        let face = StencilFace::always(StencilOp::Invert, Keep);
+        Self { front: face, back: face, read_mask: 0, write_mask: budget.beyond_mask }
+    }
+
+    /// Passes within the light's bounds, where they are marked, and changes nothing.
+    #[must_use]
+    pub const fn within_bounds(budget: BitBudget) -> Self {
+        if !budget.bounded {
+            return Self::IGNORE;
+        }
+        let face = StencilFace::test(Compare::Equal);
+        Self { front: face, back: face, read_mask: budget.beyond_mask, write_mask: 0 }
     }
 
     /// Between two batches, full screen: a count that is not zero becomes zero and leaves the verdict
@@ -234,7 +297,7 @@ impl StencilState {
     #[must_use]
     pub const fn collapse(budget: BitBudget) -> Self {
         let face = StencilFace { pass: StencilOp::Replace, ..StencilFace::test(Compare::NotEqual) };
-        Self { front: face, back: face, read_mask: budget.count_mask, write_mask: budget.shadow_mask() }
+        Self { front: face, back: face, read_mask: budget.count_mask, write_mask: budget.count_mask | budget.verdict_mask }
     }
 
     /// The field becomes the reference, whatever it was; the verdict bit stays.
@@ -250,7 +313,7 @@ impl StencilState {
     }
 
     const fn replace(mask: u8) -> Self {
-        let face = StencilFace::count(Keep, StencilOp::Replace);
+        let face = StencilFace::always(Keep, StencilOp::Replace);
         Self { front: face, back: face, read_mask: mask, write_mask: mask }
     }
 
@@ -293,6 +356,7 @@ impl StencilState {
         let face = |f: &StencilFace| {
             let test = match f.compare {
                 Compare::Always => String::new(),
+                Compare::Equal if self.read_mask == BEYOND && self.write_mask & BEYOND == 0 => "within the bounds ".into(),
                 other => format!("passes where the reference is {} ", compare_words(other)),
             };
             let ops: Vec<_> = [("fail", f.fail), ("depth fail", f.depth_fail), ("pass", f.pass)]

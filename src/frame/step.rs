@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::state::State;
+use crate::geometry::Enclosure;
 use crate::scene::{LightKind, PosedLight};
 
 /// One entry of the plan, carried out in order.
@@ -197,6 +198,8 @@ pub enum Program {
     Tint,
     /// The same, with fragments below the alpha cutoff left out.
     TintMasked,
+    /// A light's bounds, no colour.
+    Bounds,
 }
 
 /// What a step draws, by number.
@@ -209,6 +212,8 @@ pub enum DrawSet {
     Surfaces(Vec<Surface>),
     /// Parts of shadow volumes.
     Volumes(Vec<VolumePart>),
+    /// A convex solid, both sides of it.
+    Enclosure(Enclosure),
     /// All edges of these instances, numbered as [`Surface::instance`].
     Edges(Vec<usize>),
     /// Names over the finished picture.

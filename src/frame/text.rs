@@ -20,6 +20,9 @@ impl Display for FramePlan {
             writeln!(f, "lights are added into {}", self.accumulation.name())?;
         }
         writeln!(f, "stencil: count {:08b}", self.budget.count_mask)?;
+        if self.budget.beyond_mask != 0 {
+            writeln!(f, "stencil: beyond the light's bounds {:08b}", self.budget.beyond_mask)?;
+        }
         for view in &self.views {
             writeln!(f, "view {}: front {:?}", view.name, view.winding)?;
         }
@@ -126,6 +129,7 @@ fn contents(set: &DrawSet) -> String {
             let list: Vec<_> = labels.iter().map(|label| format!("{:?}", label.text)).collect();
             format!("names {}", list.join(" "))
         }
+        DrawSet::Enclosure(solid) => format!("a {}", solid.name()),
         DrawSet::Edges(instances) => format!("edges of {} instances", instances.len()),
     }
 }

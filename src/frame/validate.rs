@@ -5,7 +5,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 use super::plan::{FramePlan, Method};
-use super::state::{Blend, Compare, NearPlane, State};
+use super::state::{Blend, Compare, Cull, Depth, NearPlane, State};
 use super::stencil::{StencilOp, StencilState};
 use super::step::{Action, Draw, DrawSet, Part, Program, Target};
 
@@ -50,6 +50,7 @@ pub fn validate(plan: &FramePlan) -> Result<(), Fault> {
                 state.depth_set |= clear.depth.is_some();
                 state.stencil_set |= clear.stencil.is_some();
                 if clear.stencil.is_some() {
+                    state.bounded = None;
                     state.counting = false;
                     state.counted = None;
                 }
@@ -81,6 +82,8 @@ struct Progress {
     output_begun: bool,
     /// The picture is drawn directly, under the scene's depth and stencil.
     direct: bool,
+    /// Whose bounds are marked in the stencil, since it was cleared.
+    bounded: Option<usize>,
     /// Whose volumes the stencil counts, since it was cleared.
     counted: Option<usize>,
     counts_set: bool,
@@ -135,6 +138,18 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
     }
     if (stencil.tests() || stencil.writes()) && draw.stencil_reference & !(stencil.read_mask | stencil.write_mask) != 0 {
         return Err("its stencil reference does not fit its masks");
+    }
+    if let DrawSet::Enclosure(_) = draw.set {
+        return check_bounds(plan, draw, state);
+    }
+    if stencil.write_mask & plan.budget.beyond_mask != 0 {
+        return Err("only what bounds a light marks its bounds");
+    }
+    if stencil.tests()
+        && stencil.read_mask & plan.budget.beyond_mask != 0
+        && (state.bounded.is_none() || draw.light.is_some_and(|light| state.bounded != Some(light)))
+    {
+        return Err("it asks for bounds that were not marked");
     }
     if draw.target == Target::Counts {
         return check_wide(plan, draw, state);
@@ -243,6 +258,22 @@ fn check_full_screen(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Res
     Ok(())
 }
 
+/// A light's bounds are marked once after the stencil was cleared, before anything is counted: what is
+/// turned over twice is as it was.
+fn check_bounds(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(), &'static str> {
+    if plan.budget.beyond_mask == 0 || draw.state.stencil != StencilState::mark_bounds(plan.budget) {
+        return Err("bounds are marked in the bit that is theirs");
+    }
+    if draw.state.depth != Depth::NEARER || draw.state.cull != Cull::None || draw.state.near_plane != NearPlane::Clip {
+        return Err("bounds are marked by both sides of a solid, where they are behind the surface");
+    }
+    if draw.light.is_none() || state.bounded.is_some() || state.counted.is_some() {
+        return Err("bounds are marked once, before volumes are counted");
+    }
+    state.bounded = draw.light;
+    Ok(())
+}
+
 /// Counting by addition: z-fail, with the stencil's operations as numbers.
 fn check_wide(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(), &'static str> {
     let DrawSet::Volumes(parts) = &draw.set else { return Err("only volumes are counted") };
@@ -251,7 +282,8 @@ fn check_wide(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
     }
     state.wide = draw.light;
     let State { depth, stencil, color, near_plane, .. } = draw.state;
-    if stencil.tests() || stencil.writes() || depth.write || color != Some(Blend::Add) || near_plane != NearPlane::Clip {
+    let asks = stencil.tests() && stencil != StencilState::within_bounds(plan.budget);
+    if asks || stencil.writes() || depth.write || color != Some(Blend::Add) || near_plane != NearPlane::Clip {
         return Err("wide counts are added, under depth alone");
     }
     for part in parts {

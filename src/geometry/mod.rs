@@ -3,6 +3,7 @@
 pub mod bounds;
 pub mod clip;
 pub mod cutout;
+pub mod enclosure;
 pub mod ending;
 pub mod eye_count;
 pub mod flatten;
@@ -20,6 +21,7 @@ pub mod volume;
 pub mod weld;
 
 pub use bounds::Aabb;
+pub use enclosure::Enclosure;
 pub use eye_count::{EyeCount, holding_count};
 pub use flaw::Flaw;
 pub use frustum::NearPyramid;

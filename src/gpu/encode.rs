@@ -241,6 +241,7 @@ impl Encode<'_> {
             }
             DrawSet::Surfaces(surfaces) => self.record_surfaces(pass, scene, surfaces, drawn),
             DrawSet::Volumes(parts) => self.record_volumes(pass, plan, scene, parts, drawn),
+            DrawSet::Enclosure(_) => self.record_enclosure(pass, number, drawn),
             DrawSet::Labels(_) => self.record_labels(pass, drawn),
             DrawSet::Edges(instances) => self.record_edges(pass, scene, instances, drawn),
         }
@@ -313,6 +314,15 @@ impl Encode<'_> {
             drawn.triangles += triangles;
             drawn.volume_triangles += triangles;
         }
+    }
+
+    fn record_enclosure(&self, pass: &mut wgpu::RenderPass<'_>, number: usize, drawn: &mut Drawn) {
+        let found = self.frame.enclosures.iter().find(|(of, _)| *of == number);
+        let (Some((_, range)), Some(buffer)) = (found, self.frame.enclosure_vertices.buffer()) else { return };
+        pass.set_vertex_buffer(0, buffer.slice(..));
+        pass.draw(range.clone(), 0..1);
+        drawn.draws += 1;
+        drawn.triangles += u64::from((range.end - range.start) / 3);
     }
 
     fn record_labels(&self, pass: &mut wgpu::RenderPass<'_>, drawn: &mut Drawn) {

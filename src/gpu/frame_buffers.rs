@@ -36,6 +36,10 @@ pub struct FrameBuffers {
     pub cutout_vertices: Growing,
     /// Where each planned volume's vertices start among those; `None` where they are its mesh's.
     pub first_vertices: Vec<Option<u32>>,
+    /// Corners of the solids about lights, in clip space, `Float32x4`.
+    pub enclosure_vertices: Growing,
+    /// Where those of a draw, by its number among the plan's draws, stand among them.
+    pub enclosures: Vec<(usize, std::ops::Range<u32>)>,
     bind_group: Option<wgpu::BindGroup>,
     scratch: Scratch,
 }
@@ -52,6 +56,7 @@ struct Scratch {
     volume: VolumeScratch,
     cutouts: CutoutScratch,
     parts: Vec<Option<VolumeParts>>,
+    enclosures: Vec<[f32; 4]>,
 }
 
 /// A device buffer that is made anew, larger, when its data outgrow it.
@@ -108,6 +113,8 @@ impl Default for FrameBuffers {
             slides: Slides::default(),
             cutout_vertices: Growing::new("cut-out vertices", wgpu::BufferUsages::VERTEX),
             first_vertices: Vec::new(),
+            enclosure_vertices: Growing::new("solids about lights", wgpu::BufferUsages::VERTEX),
+            enclosures: Vec::new(),
             bind_group: None,
             scratch: Scratch::default(),
         }
@@ -148,6 +155,7 @@ impl FrameBuffers {
             return Err(GpuError::TooLarge(what));
         }
         self.describe_objects(plan, scene, pose);
+        self.build_enclosures(plan);
         let mut grown = self.slides.prepare(context, scene, pose);
         let scratch = &mut self.scratch;
         scratch.lights.clear();
@@ -169,6 +177,7 @@ impl FrameBuffers {
         grown |= self.draws.write(context, &scratch.draws, DRAW_STRIDE as usize);
         self.indices.write(context, cast_slice(&scratch.indices), 4);
         self.cutout_vertices.write(context, cast_slice(&scratch.cutouts.vertices), 16);
+        self.enclosure_vertices.write(context, cast_slice(&scratch.enclosures), 16);
         // Copies come in fours of bytes; what is one index too long is never drawn.
         if scratch.short_indices.len() % 2 == 1 {
             scratch.short_indices.push(0);
@@ -276,6 +285,19 @@ impl FrameBuffers {
             };
             self.volume_indices.push((indices, format));
             self.first_vertices.push(first_vertex);
+        }
+    }
+
+    fn build_enclosures(&mut self, plan: &FramePlan) {
+        let vertices = &mut self.scratch.enclosures;
+        vertices.clear();
+        self.enclosures.clear();
+        for (number, (step, draw)) in plan.draws().enumerate() {
+            let DrawSet::Enclosure(solid) = &draw.set else { continue };
+            let count = |vertices: &Vec<[f32; 4]>| u32::try_from(vertices.len()).unwrap_or(u32::MAX);
+            let first = count(vertices);
+            solid.append_clip(&plan.views[step.view].camera.clip_from_world(), vertices);
+            self.enclosures.push((number, first..count(vertices)));
         }
     }
 

@@ -30,6 +30,7 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("wide.wgsl", include_str!("../../shaders/wide.wgsl")),
     ("tint.wgsl", include_str!("../../shaders/tint.wgsl")),
     ("dark.wgsl", include_str!("../../shaders/dark.wgsl")),
+    ("bounds.wgsl", include_str!("../../shaders/bounds.wgsl")),
     ("output.wgsl", include_str!("../../shaders/output.wgsl")),
 ];
 
@@ -44,7 +45,7 @@ pub enum Vertices {
     Positions,
     /// Positions of a mesh, as line ends.
     Edges,
-    /// Welded positions twice, with w = 1 and w = 0.
+    /// Homogeneous positions: of volumes, welded positions twice, with w = 1 and w = 0.
     Volume,
     /// Corners of names' plates and letters.
     Labels,
@@ -132,6 +133,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::Dark, "dark.wgsl", "full_screen_vertex", "dark", Vertices::None, &[]),
     entry(Program::Tint, "tint.wgsl", "surface_vertex", "tint", Vertices::Surface, SURFACE),
     entry(Program::TintMasked, "tint.wgsl", "surface_vertex", "tint_masked", Vertices::Surface, SURFACE),
+    entry(Program::Bounds, "bounds.wgsl", "bounds_vertex", "bounds", Vertices::Volume, &[]),
 ];
 
 /// The entry of a program.

@@ -75,6 +75,8 @@ pub struct LightReport {
     pub light: usize,
     /// Its name, or that of the light it is a point of.
     pub name: String,
+    /// What bounds it in depth, where that was marked in the stencil.
+    pub depth_bounds: Option<&'static str>,
     /// How many casters were counted how, and why.
     pub counted: Vec<Counted>,
 }
@@ -175,6 +177,7 @@ fn volumes(scene: &Scene, plan: &FramePlan) -> Vec<LightReport> {
         .map(|(light, counts)| LightReport {
             light,
             name: plan.points.get(light).and_then(|&of| scene.lights.get(of)).map(|light| light.name.clone()).unwrap_or_default(),
+            depth_bounds: plan.depth_bounds(light).map(|solid| solid.name()),
             counted: counts
                 .into_iter()
                 .map(|((method, reason), casters)| Counted { method, reason, words: reason.words(), casters })

@@ -13,11 +13,13 @@ pub struct Culling {
     /// Each volume is counted in a step of its own, behind a scissor of its own; else those that are
     /// counted alike share both.
     pub caster_scissors: bool,
+    /// Counts only where the surface lies within the light's bounds ([`crate::techniques::depth_bounds`]).
+    pub depth_bounds: bool,
 }
 
 impl Default for Culling {
     fn default() -> Self {
-        Self { on: true, light_bounds: LightBounds::default(), caster_scissors: false }
+        Self { on: true, light_bounds: LightBounds::default(), caster_scissors: false, depth_bounds: false }
     }
 }
 

@@ -10,18 +10,18 @@ use glam::{DVec3, DVec4};
 
 use super::culling::{Sight, around};
 use super::overflow::{self, Way};
-use super::{Row, wide};
+use super::{Row, depth_bounds, wide};
 use crate::frame::plan::View;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{
     Action, Capabilities, Cutout, Draw, DrawSet, Look, Method, Part, Program, Step, Target, VolumePart, VolumePlan,
 };
-use crate::geometry::Aabb;
 use crate::geometry::eye_count::{EyeCount, holding_count};
 use crate::geometry::frustum::NearPyramid;
 use crate::geometry::light_in_object;
 use crate::geometry::near_rectangle::may_shadow;
+use crate::geometry::{Aabb, Enclosure};
 use crate::scene::{AlphaMode, Mesh, Node, Pose, PosedLight, Scene};
 use crate::settings::{Overflow, Technique};
 
@@ -148,6 +148,8 @@ pub struct Ask<'a> {
     pub samples: u32,
     /// The bits there are to count in.
     pub budget: BitBudget,
+    /// What bounds the light in depth, where that is marked: the budget then has a bit for it.
+    pub solid: Option<Enclosure>,
     /// What is done where they are too few.
     pub overflow: Overflow,
     /// The count itself is shown, not only whether it is zero.
@@ -158,7 +160,8 @@ pub struct Ask<'a> {
 #[derive(Debug, Default)]
 pub struct LightCount {
     /// What the stencil must hold everywhere before the first volume: how many of the volumes that
-    /// are counted from the eye hold the eye, modulo the field.
+    /// are counted from the eye hold the eye, modulo the field; and that it lies beyond the light's
+    /// bounds, until those are marked.
     pub base: u8,
     /// The counting steps, in order.
     pub steps: Vec<Step>,
@@ -172,8 +175,9 @@ pub struct LightCount {
 pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &mut Vec<VolumePlan>) -> LightCount {
     let first = volumes.len();
     let light = ask.light;
+    let nothing = || LightCount { budget: ask.budget.without_bounds(), ..LightCount::default() };
     if row.groups.is_empty() {
-        return LightCount { budget: ask.budget, ..LightCount::default() };
+        return nothing();
     }
     // Of those that are counted: the caster, and its volume's number.
     let mut counted = Vec::new();
@@ -205,7 +209,7 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
         });
     }
     if counted.is_empty() {
-        return LightCount { budget: ask.budget, ..LightCount::default() };
+        return nothing();
     }
 
     let decision = overflow::decide(row, &counted.iter().map(|(caster, _)| *caster).collect::<Vec<_>>(), ask);
@@ -228,7 +232,7 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
             sum.wrapping_add(holds_eye as u8)
         }) & budget.count_mask;
         if batch == 0 {
-            count.base = base;
+            count.base = base | budget.beyond();
         } else {
             count.steps.extend(between_batches(batch, base, budget, ask));
         }
@@ -237,6 +241,9 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
     if row.technique == Technique::Wide {
         count.steps.insert(0, wide::begin(light));
         count.steps.extend(wide::finish(ask));
+    }
+    if let Some(solid) = ask.solid {
+        count.steps.insert(0, depth_bounds::mark(light, solid, budget, ask.scissor));
     }
     count
 }

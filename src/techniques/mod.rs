@@ -14,6 +14,7 @@ pub mod cases;
 pub mod counting;
 pub mod culling;
 mod cutout;
+pub mod depth_bounds;
 mod exact_z_pass;
 mod flattened;
 pub mod labels;

@@ -106,13 +106,18 @@ pub fn wireframe(instances: usize, scissor: [u32; 4]) -> Step {
 
 /// One light's count in false colour, with a legend.
 #[must_use]
-pub fn stencil_colors(scissor: [u32; 4]) -> Step {
-    full_screen(
+pub fn stencil_colors(budget: BitBudget, scissor: [u32; 4]) -> Step {
+    let mut step = full_screen(
         "stencil in false colour",
         "Reads the stencil and gives each count a colour; the legend names them.",
         Program::StencilColors,
         scissor,
-    )
+    );
+    if let Action::Draw(draw) = &mut step.action {
+        // Beyond the light's bounds nothing is counted.
+        draw.constant = [f32::from(budget.beyond()), 0.0, 0.0, 0.0];
+    }
+    step
 }
 
 /// Background, exposure and tone curve: linear light becomes the picture.

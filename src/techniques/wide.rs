@@ -48,6 +48,7 @@ const WIDE: Group = Group {
     target: Target::Counts,
     constant: KEPT,
     depth: Depth::NOT_NEARER,
+    stencil: StencilState::within_bounds,
     ..Group::PLAIN
 };
 

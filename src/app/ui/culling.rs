@@ -17,6 +17,15 @@ pub fn culling(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
     );
     ui.checkbox(&mut culling.caster_scissors, "A scissor for each caster")
         .on_hover_text("Each volume is counted in a step of its own, behind a scissor of its own");
+    let tip = "Marks in the stencil which pixels' surfaces lie within a light's bounds, and counts only there. It takes a bit of the count";
+    ui.checkbox(&mut culling.depth_bounds, "Depth bounds, by the stencil").on_hover_text(tip);
+    if let Some(plan) = view.plan.filter(|_| culling.depth_bounds) {
+        let words = plan.depth_bounds(desk.settings.light).map_or_else(
+            || format!("Light {} has no bounds in depth here.", desk.settings.light),
+            |solid| format!("Light {} is bounded by a {}; `stencil` shows the mark.", desk.settings.light, solid.name()),
+        );
+        explain(ui, words);
+    }
     ui.horizontal_wrapped(|ui| {
         style::tight(ui);
         ui.label(RichText::new("Light bounds").color(style::WEAK));

@@ -1,0 +1,100 @@
+//! Depth bounds by the stencil (M sections 5 and 6, `SetDepthBounds`).
+//!
+//! A light with an end lights no surface farther away, so nothing need be counted on it. The light's
+//! scissor knows that for pixels beside the light; M's depth bounds test knows it for pixels before and
+//! behind it as well: what a pixel's depth already says. M has no replacement for hardware without that
+//! test, and WebGPU is without it.
+//!
+//! The stencil can stand in: before the first volume, one draw of a convex solid about all that the
+//! light reaches ([`Enclosure`]) tells the pixels whose surface lies within it, and every step that counts
+//! asks for their bit first. That is better than bounds in depth, which are a slab across the view, and worse
+//! in that it must be drawn.
+//!
+//! ```text
+//!                         ______
+//!     eye o -------------/--x---\--------   one face behind x: the bit turns over, x is counted
+//!                y      |  light |          two behind y: it stays, y is not
+//!                        \______/     z     none behind z: it stays, z is not
+//! ```
+//!
+//! The bit is one of the count's, and is set where a surface lies *beyond* the bounds: then all bits are zero
+//! where the light shines, whatever they mean. It starts set everywhere, by the clear that starts the
+//! count. The solid has room to spare for rounding and for the depth buffer's steps, so that too much may
+//! be counted, never too little, and every verdict stays what it was.
+
+use glam::DVec3;
+
+use super::culling::Interest;
+use crate::frame::state::{Cull, Depth, NearPlane, State, Winding};
+use crate::frame::stencil::{BitBudget, StencilState};
+use crate::frame::{Action, Camera, Draw, DrawSet, Look, Program, Step, Target};
+use crate::geometry::Enclosure;
+use crate::scene::{LightKind, PosedLight};
+use crate::settings::LightBounds;
+
+/// A solid about all that the light may light in this view, by `bounds`; none for lights that have no end.
+///
+/// None either behind a far plane, which would cut the solid open.
+#[must_use]
+pub fn enclosure(light: &PosedLight, bounds: LightBounds, interest: Interest, camera: &Camera) -> Option<Enclosure> {
+    /// Cones wider than this are balls.
+    const WIDEST: f64 = 1.3;
+    /// Radians: the shader's cosines are in single precision.
+    const ROUNDING: f64 = 2e-3;
+    let (center, radius) = (light.position, light.range);
+    let has_end = light.kind != LightKind::Directional && center.is_finite() && radius.is_finite() && radius > 0.0;
+    if !has_end || interest == Interest::InView || bounds == LightBounds::None || camera.far.is_some() {
+        return None;
+    }
+    let ball = Enclosure::Ball { center, radius };
+    let solid = match (bounds, light.kind) {
+        (LightBounds::Box, _) => Enclosure::Box { center, radius },
+        (LightBounds::Tight, LightKind::Spot { outer, .. }) if interest == Interest::Lit && f64::from(outer) < WIDEST => {
+            let (apex, outer) = (center, f64::from(outer) + ROUNDING);
+            light.direction.try_normalize().map_or(ball, |axis| Enclosure::Cone { apex, axis, outer, reach: radius })
+        }
+        _ => ball,
+    };
+    Some(solid.grown(margin(center, radius, camera)))
+}
+
+/// Metres by which rounding may move a surface, or a face of the solid, at the far end of a ball.
+fn margin(center: DVec3, radius: f64, camera: &Camera) -> f64 {
+    /// Of positions in single precision, with some room.
+    const SHARE: f64 = 1e-5;
+    /// Of depth, whose values lie 2^-24 apart at best: as many steps as interpolation may be off.
+    const STEPS: f64 = 16.0;
+    let farthest = center.distance(camera.eye) + radius;
+    let step = farthest * farthest / camera.near * f64::from(f32::EPSILON) / 2.0;
+    radius * 1e-3 + (center.length() + farthest) * SHARE + step * STEPS
+}
+
+/// The step that marks them, in the light's `scissor`.
+#[must_use]
+pub fn mark(light: usize, solid: Enclosure, budget: BitBudget, scissor: [u32; 4]) -> Step {
+    Step {
+        label: format!("light {light}: mark its bounds"),
+        why: "A solid about all that the light reaches: where one of its two faces is behind the surface, the surface lies \
+              within, and only there volumes are counted."
+            .into(),
+        view: 0,
+        action: Action::Draw(Box::new(Draw {
+            program: Program::Bounds,
+            look: Look::default(),
+            target: Target::Scene,
+            state: State {
+                depth: Depth::NEARER,
+                stencil: StencilState::mark_bounds(budget),
+                color: None,
+                cull: Cull::None,
+                winding: Winding::Ccw,
+                near_plane: NearPlane::Clip,
+            },
+            stencil_reference: 0,
+            scissor,
+            light: Some(light),
+            constant: [0.0; 4],
+            set: DrawSet::Enclosure(solid),
+        })),
+    }
+}
