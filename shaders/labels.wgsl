@@ -5,7 +5,7 @@
 struct LabelVertex {
     @location(0) at: vec2f,         // pixels from the upper left
     @location(1) uv: vec2f,         // in the atlas
-    @location(2) color: vec4f,      // linear, premultiplied
+    @location(2) color: vec4f,      // as the picture stores it, premultiplied
 }
 
 struct LabelPoint {

@@ -15,33 +15,33 @@ fn gather(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     return select(before + (scene - before) * draw.constant.x, scene, draw.constant.x == 1.0);
 }
 
-@fragment
-fn tone_map(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let scene = textureLoad(scene_color, vec2i(pixel.xy), 0);
-    // Where no surface is, or only blended ones, the gradient behind everything shows.
-    let behind = gradient(pixel.y) * (1.0 - scene.a);
-    return vec4f(tone_curve(scene.rgb * frame.exposure + behind), 1.0);
+struct Backdrop {
+    @builtin(position) clip: vec4f,
+    @location(0) color: vec3f,      // the gradient behind everything
+}
+
+@vertex
+fn backdrop_vertex(@builtin(vertex_index) index: u32) -> Backdrop {
+    let clip = full_screen_corner(index);
+    return Backdrop(clip, mix(frame.background_top, frame.background_bottom, 0.5 - clip.y * 0.5));
 }
 
 @fragment
-fn background(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    return vec4f(tone_curve(gradient(pixel.y)), 1.0);
+fn tone_map(behind: Backdrop) -> @location(0) vec4f {
+    let scene = textureLoad(scene_color, vec2i(behind.clip.xy), 0);
+    // Where no surface is, or only blended ones, the gradient shows.
+    return shown(scene.rgb * frame.exposure + behind.color * (1.0 - scene.a));
 }
 
-fn gradient(y: f32) -> vec3f {
-    return mix(frame.background_top, frame.background_bottom, y / frame.size.y);
+@fragment
+fn background(behind: Backdrop) -> @location(0) vec4f {
+    return shown(behind.color);
 }
 
-// Display values, 0 to 1 as the picture stores them, go through unchanged: the target's format
-// encodes sRGB, so they are decoded first.
+// Display values, 0 to 1 as the picture stores them, go through unchanged.
 @fragment
 fn copy(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let value = textureLoad(scene_color, vec2i(pixel.xy), 0).rgb;
-    return vec4f(decoded(value), 1.0);
-}
-
-fn decoded(value: vec3f) -> vec3f {
-    return select(pow((value + 0.055) / 1.055, vec3f(2.4)), value / 12.92, value <= vec3f(0.04045));
+    return vec4f(textureLoad(scene_color, vec2i(pixel.xy), 0).rgb, 1.0);
 }
 
 // 1 to 8, each told from its neighbours at a glance.
@@ -111,24 +111,25 @@ fn stencil_colors(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
                 }
             }
         }
-        return vec4f(decoded(color), 1.0);
+        return vec4f(color, 1.0);
     }
     // Where no surface is there is nothing to count.
     let scene = textureLoad(scene_color, vec2i(pixel.xy), 0);
     if scene.a == 0.0 {
-        return vec4f(decoded(vec3f(0.02, 0.022, 0.03)), 1.0);
+        return vec4f(0.02, 0.022, 0.03, 1.0);
     }
     let stored = textureLoad(scene_stencil, vec2i(pixel.xy), 0).r;
+    let dimmed = dot(scene.rgb * frame.exposure, vec3f(0.25, 0.5, 0.25)) * 0.5;
     // Beyond the light's depth bounds nothing is counted: hatched, where the plan has a bit for it.
     let beyond = u32(draw.constant.r);
     if (stored & beyond) != 0u {
         let stripe = ((i32(pixel.x) + i32(pixel.y)) / max(i32(frame.size.y) / 180, 1)) % 4 == 0;
-        let grey = dot(scene.rgb * frame.exposure, vec3f(0.25, 0.5, 0.25)) * 0.5;
-        return vec4f(vec3f(grey) + select(vec3f(0.0), vec3f(0.05, 0.06, 0.09), stripe), 1.0);
+        return vec4f(encoded(vec3f(dimmed) + select(vec3f(0.0), vec3f(0.05, 0.06, 0.09), stripe)), 1.0);
     }
     let count = stored & ~beyond;
+    if count > 0u {
+        return vec4f(count_color(count), 1.0);
+    }
     // Where the count is zero the scene shows through, dimly, so that one sees what is counted.
-    let ambient = scene.rgb * frame.exposure;
-    let hint = select(vec3f(0.0), vec3f(dot(ambient, vec3f(0.25, 0.5, 0.25))), count == 0u);
-    return vec4f(decoded(count_color(count)) + hint * 0.5, 1.0);
+    return vec4f(encoded(decoded(count_color(0u)) + dimmed), 1.0);
 }

@@ -40,6 +40,10 @@ struct SurfacePoint {
 
 @vertex
 fn surface_vertex(vertex: SurfaceVertex, @builtin(instance_index) object: u32) -> SurfacePoint {
+    return surface_point(vertex, object);
+}
+
+fn surface_point(vertex: SurfaceVertex, object: u32) -> SurfacePoint {
     var point: SurfacePoint;
     point.clip = clip_position(object, vec4f(vertex.position, 1.0));
     point.world = (objects[object].world_from_object * vec4f(vertex.position, 1.0)).xyz;
@@ -50,11 +54,16 @@ fn surface_vertex(vertex: SurfaceVertex, @builtin(instance_index) object: u32) -
     return point;
 }
 
-fn base_color(point: SurfacePoint) -> vec4f {
+// White where there is no texture.
+fn base_color_texel(uv: vec2f) -> vec4f {
     if TEXTURED {
-        return point.color * textureSample(base_color_texture, base_color_sampler, point.uv);
+        return textureSample(base_color_texture, base_color_sampler, uv);
     }
-    return point.color;
+    return vec4f(1.0);
+}
+
+fn base_color(point: SurfacePoint) -> vec4f {
+    return point.color * base_color_texel(point.uv);
 }
 
 // Towards the side that is seen; not unit.
@@ -65,64 +74,14 @@ fn seen_normal(point: SurfacePoint, front: bool) -> vec3f {
     return point.normal;
 }
 
-// `up` is the height of the unit normal: 1 looks up, -1 down.
+// Ambient light, which comes from all around, as a surface whose normal rises by `up` throws it back:
+// 1 looks up, -1 down. Unlit surfaces are bright by themselves.
 fn ambient_light(base: vec3f, up: f32) -> vec3f {
     let ambient = mix(frame.ambient_ground, frame.ambient_sky, up * 0.5 + 0.5);
-    return (select(base * ambient, base, material.unlit > 0.5) + material.emissive) * frame.scale;
+    return select(base * ambient, base, material.unlit > 0.5) * frame.scale;
 }
 
-const PI: f32 = 3.14159265;
-
-// What a projector's slide lets through on the way `away`, which leads from the light to the surface.
-fn through_slide(light: Light, away: vec3f, from_eye: f32) -> vec3f {
-    let along = max(dot(away, light.direction), 1e-6);
-    let down = cross(light.direction, light.right);
-    // -1 to 1 over the slide, u to the right, v downward.
-    let at = vec2f(dot(away, light.right), dot(away, down)) * (light.slide_scale / along);
-    // A pixel's size in texels says which level is fine enough.
-    let texels = frame.pixel * from_eye * light.slide_scale / along * 0.5 * f32(textureDimensions(slides).x);
-    let color = textureSampleLevel(slides, slide_sampler, at * 0.5 + 0.5, light.slide, log2(max(texels, 1.0))).rgb;
-    return select(vec3f(0.0), color, all(abs(at) <= vec2f(1.0)));
-}
-
-// Radiance towards the eye from one light, before shadows. `kind` is a constant where it can be.
-fn light_on_surface(light: Light, kind: u32, base: vec3f, point: SurfacePoint, normal: vec3f) -> vec3f {
-    var offset = -light.direction;
-    if kind != DIRECTIONAL {
-        offset = light.position - point.world;
-    }
-    let distance_squared = max(dot(offset, offset), 1e-6);
-    // One square root for both lengths: the normal's and the way to the light's.
-    let cosine = dot(normal, offset) * inverseSqrt(dot(normal, normal) * distance_squared);
-    // The terminator bound: zero before any neighbouring facet turns away from the light.
-    let facing = max(cosine - point.sin_bound, 0.0);
-    var weight = facing / (1.0 - point.sin_bound);
-    if kind != DIRECTIONAL {
-        // Inverse square, brought to zero at the range (as glTF's KHR_lights_punctual suggests).
-        let fraction = distance_squared * light.inverse_range_squared;
-        let window = saturate(1.0 - fraction * fraction);
-        weight = facing * window * window / (distance_squared * (1.0 - point.sin_bound));
-    }
-    if kind == SPOT || kind == PROJECTOR {
-        let along = -dot(offset, light.direction) * inverseSqrt(distance_squared);
-        let cone = saturate((along - light.cos_outer) * light.inverse_cone_width);
-        weight *= cone * cone;
-    }
-    var reflected = base * (1.0 / PI);
-    if GLOSSY {
-        // Blinn-Phong, normalised, from the glTF roughness.
-        let to_eye = normalize(frame.eye - point.world);
-        let halfway = normalize(to_eye + offset * inverseSqrt(distance_squared));
-        let alpha = max(material.roughness * material.roughness, 0.04);
-        let shininess = max(2.0 / (alpha * alpha) - 2.0, 0.0);
-        let reflectance = mix(vec3f(0.04 * (1.0 - material.roughness)), base, material.metallic);
-        let height = dot(normal, halfway) * inverseSqrt(dot(normal, normal));
-        let lobe = (shininess + 8.0) / (8.0 * PI) * pow(max(height, 1e-4), shininess);
-        reflected = reflected * (1.0 - material.metallic) + reflectance * lobe;
-    }
-    var intensity = light.intensity;
-    if kind == PROJECTOR {
-        intensity *= through_slide(light, -offset, distance(point.world, frame.eye));
-    }
-    return reflected * intensity * weight;
+// What the material gives off by itself.
+fn emitted_light() -> vec3f {
+    return material.emissive * frame.scale;
 }

@@ -13,6 +13,7 @@ use egui_wgpu::ScreenDescriptor;
 use winit::window::Window;
 
 use crate::frame::FramePlan;
+use crate::gpu::readback::PICTURE_FORMAT;
 use crate::gpu::{Context, FrameStats, GpuError, Renderer};
 use crate::scene::{Pose, Scene};
 
@@ -30,7 +31,7 @@ pub struct Screen {
     config: wgpu::SurfaceConfiguration,
     panel: egui_wgpu::Renderer,
     picture: Option<Picture>,
-    /// What the picture is drawn in.
+    /// What the picture is drawn in: a format that does not convert, as [`PICTURE_FORMAT`].
     picture_format: wgpu::TextureFormat,
     /// The picture's texels can be copied into the surface as they are.
     copies: bool,
@@ -91,7 +92,7 @@ impl Screen {
             config.usage |= wgpu::TextureUsages::COPY_DST;
         }
         config.present_mode = present_mode(vsync);
-        let picture_format = if copies { plain.add_srgb_suffix() } else { wgpu::TextureFormat::Rgba8UnormSrgb };
+        let picture_format = if copies { plain } else { PICTURE_FORMAT };
         let panel = egui_wgpu::Renderer::new(&context.device, config.format, egui_wgpu::RendererOptions::default());
         let screen = Self {
             surface,
@@ -182,7 +183,6 @@ impl Screen {
         let [width, height] = size;
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
             | if self.copies { wgpu::TextureUsages::COPY_SRC } else { wgpu::TextureUsages::TEXTURE_BINDING };
-        let plain = self.picture_format.remove_srgb_suffix();
         let texture = self.context.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("picture"),
             size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
@@ -191,16 +191,14 @@ impl Screen {
             dimension: wgpu::TextureDimension::D2,
             format: self.picture_format,
             usage,
-            view_formats: if self.copies { &[] } else { std::slice::from_ref(&plain) },
+            view_formats: &[],
         });
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         if let Some(old) = old {
             self.panel.free_texture(&old);
         }
-        let painted = (!self.copies).then(|| {
-            let plain = texture.create_view(&wgpu::TextureViewDescriptor { format: Some(plain), ..Default::default() });
-            self.panel.register_native_texture(&self.context.device, &plain, wgpu::FilterMode::Nearest)
-        });
+        let painted =
+            (!self.copies).then(|| self.panel.register_native_texture(&self.context.device, &view, wgpu::FilterMode::Nearest));
         Picture { texture, view, size, painted }
     }
 

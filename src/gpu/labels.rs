@@ -14,10 +14,10 @@ use super::frame_buffers::Growing;
 use super::types::LabelVertex;
 use crate::frame::{DrawSet, FramePlan, Label, LabelKind};
 
-/// Linear, premultiplied.
-const PLATE: [f32; 4] = [0.004, 0.005, 0.008, 0.62];
-const OF_LIGHTS: [f32; 4] = [1.0, 0.62, 0.18, 1.0];
-const OF_CASTERS: [f32; 4] = [0.86, 0.89, 0.95, 1.0];
+/// As the picture stores them (sRGB), premultiplied.
+const PLATE: [f32; 4] = [0.03, 0.036, 0.05, 0.5];
+const OF_LIGHTS: [f32; 4] = [1.0, 0.81, 0.46, 1.0];
+const OF_CASTERS: [f32; 4] = [0.94, 0.95, 0.98, 1.0];
 
 /// Fonts, their atlas, and the triangles of the frame's names.
 pub struct Labels {

@@ -5,8 +5,9 @@ use super::{FrameStats, Renderer};
 use crate::frame::{FramePlan, WideCounts};
 use crate::scene::{Pose, Scene};
 
-/// The format pictures are drawn in without a window.
-pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+/// The format pictures are drawn in without a window. Like every picture's it does not convert: the shaders
+/// encode sRGB themselves.
+pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// Draws the plan into a picture of its own and reads it back: sRGB, rows from the top, opaque.
 ///

@@ -114,7 +114,7 @@ pub struct LabelVertex {
     pub at: [f32; 2],
     /// In the atlas, 0 to 1.
     pub uv: [f32; 2],
-    /// Linear, premultiplied.
+    /// As the picture stores it, premultiplied.
     pub color: [f32; 4],
 }
 
