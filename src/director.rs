@@ -22,10 +22,12 @@ use crate::scene::area::sequence;
 use crate::scene::pose::pose;
 use crate::scene::{LightKind, Pose, Sampling, Scene};
 use crate::settings::{Accumulation, MAX_FRAMES, Settings, Show, Technique, Texturing};
+use crate::techniques::above::{Above, above};
 use crate::techniques::cases::{self, Class};
 use crate::techniques::counting::LightCount;
 use crate::techniques::culling::{Audience, Interest, Stalls, light_rect};
-use crate::techniques::{self, Caster, counting, depth_bounds, labels, show, surfaces, wide};
+use crate::techniques::labels::{self, Named};
+use crate::techniques::{self, Caster, bounds, counting, depth_bounds, show, surfaces, wide};
 
 /// Why a frame cannot be planned: one line each.
 #[derive(Debug, Error)]
@@ -68,7 +70,7 @@ pub fn stage(settings: &Settings, scene: &Scene, capabilities: &Capabilities) ->
 #[must_use]
 pub fn frames(settings: &Settings) -> u32 {
     // Exact values and false colours have no mean.
-    let one_frame = matches!(settings.show, Show::Stencil | Show::Shadow | Show::Overflow | Show::Cases);
+    let one_frame = matches!(settings.show, Show::Stencil | Show::Shadow | Show::Overflow | Show::Cases | Show::Bounds);
     if one_frame { 1 } else { settings.lighting.accumulate.clamp(1, MAX_FRAMES) }
 }
 
@@ -172,10 +174,27 @@ pub fn plan(
             frame.plan_casters(settings.light);
             let classes = frame.classes(settings.light);
             frame.clear_all(cases::BACKGROUND, 0);
-            frame.extend(cases::steps(scene, &groups, &classes, whole));
+            frame.extend(cases::steps(scene, &groups, &classes, Class::color, whole));
             frame.extend(cases::glass(scene, pose, &frame.plan.views[0], whole));
             frame.push(show::copy(whole));
             frame.label(Target::Output);
+        }
+        Show::Bounds => {
+            frame.plan_casters(settings.light);
+            let (classes, scissor) = (frame.classes(settings.light), frame.light_rect(settings.light));
+            let (eye, above) = frame.rise();
+            let groups = surfaces::opaque_groups(scene, pose, &frame.plan.views[0], frame.plan.size, Texturing::EachLight);
+            frame.clear_all(cases::BACKGROUND, 0);
+            frame.extend(cases::steps(scene, &groups, &classes, bounds::color_of, whole));
+            if above.cut.is_some() {
+                frame.extend(bounds::cut(&groups, whole));
+            }
+            frame.extend(bounds::glass(&frame.plan.volumes, settings.light, whole));
+            frame.push(show::copy(whole));
+            frame.draw_bounds(&eye, &above, scissor);
+            let named = Named { casters: settings.lighting.labels, eye: Some(eye.eye) };
+            // The near plane may cut lamps off; their names stay.
+            frame.name(named, Camera { near: 0.0, ..above.camera }, Target::Output);
         }
         Show::Final | Show::Volumes | Show::Wireframe => {
             let darkens = techniques::row(settings.technique).darkens;
@@ -505,12 +524,47 @@ impl<'a> Frame<'a> {
         cases::classes(self.scene, &self.plan.volumes, light, self.pose.lights[light].shadows)
     }
 
+    /// Takes the eye's place to look at all from above; gives the eye, for which everything was planned.
+    fn rise(&mut self) -> (Camera, Above) {
+        let eye = self.plan.views[0].camera;
+        let above = above(self.scene, self.pose, &eye, self.settings.light);
+        if let Some(cut) = above.cut {
+            self.plan.notes.push(format!("something covers the eye: all above {cut:.1} m is cut away"));
+        }
+        self.plan.views[0] = View { name: "above".into(), camera: above.camera, winding: Winding::Ccw };
+        // Display values have no exposure.
+        self.plan.exposure = 1.0;
+        (eye, above)
+    }
+
+    fn draw_bounds(&mut self, eye: &Camera, above: &Above, scissor: Option<[u32; 4]>) {
+        let scope = bounds::Scope {
+            above,
+            eye,
+            size: self.plan.size,
+            pose: self.pose,
+            lights: self.scene.lights.len(),
+            light: self.settings.light,
+            bounds: self.settings.culling.light_bounds,
+            scissor,
+        };
+        if scissor.is_none() {
+            self.plan.notes.push(format!("light {} reaches nothing in view", self.settings.light));
+        }
+        self.push(bounds::step(bounds::strokes(&scope), self.whole()));
+    }
+
     /// Names, where they are asked for, over the finished picture.
     fn label(&mut self, target: Target) {
         if !self.settings.lighting.labels {
             return;
         }
-        let (labels, left_out) = labels::labels(self.scene, self.pose, self.plan.views[0].camera, self.plan.size);
+        self.name(Named { casters: true, eye: None }, self.plan.views[0].camera, target);
+    }
+
+    /// Names over the finished picture, which `camera` sees.
+    fn name(&mut self, named: Named, camera: Camera, target: Target) {
+        let (labels, left_out) = labels::labels(self.scene, self.pose, named, camera, self.plan.size);
         if left_out > 0 {
             self.plan.notes.push(format!("{left_out} names have no room in the picture"));
         }

@@ -263,6 +263,8 @@ pub enum Show {
     Volumes,
     /// Every caster in the colour of the case it falls in for one light.
     Cases,
+    /// From above: the eye's frustum, the lights' ranges, one light's scissor.
+    Bounds,
     /// The picture with every triangle's edges.
     Wireframe,
 }
@@ -303,8 +305,8 @@ named! {
 
 impl Show {
     /// Everything that can be shown, in the order people see them.
-    pub const ALL: [Self; 7] =
-        [Self::Final, Self::Stencil, Self::Shadow, Self::Overflow, Self::Volumes, Self::Cases, Self::Wireframe];
+    pub const ALL: [Self; 8] =
+        [Self::Final, Self::Stencil, Self::Shadow, Self::Overflow, Self::Volumes, Self::Cases, Self::Bounds, Self::Wireframe];
 
     /// The name on the command line and in files.
     #[must_use]
@@ -316,6 +318,7 @@ impl Show {
             Self::Overflow => "overflow",
             Self::Volumes => "volumes",
             Self::Cases => "cases",
+            Self::Bounds => "bounds",
             Self::Wireframe => "wireframe",
         }
     }
@@ -334,6 +337,9 @@ impl Show {
             Self::Cases => {
                 "casters by the case they fall in for one light: blue 1, yellow 2, red 3, violet left out; grey casts nothing"
             }
+            Self::Bounds => {
+                "from above: the eye's frustum, the lights' ranges, one light's scissor as a slice of the frustum, casters by case"
+            }
             Self::Wireframe => "every triangle's edges drawn over the picture",
         }
     }
@@ -342,7 +348,7 @@ impl Show {
     #[must_use]
     pub const fn looks_at_light(self) -> bool {
         match self {
-            Self::Stencil | Self::Shadow | Self::Overflow | Self::Volumes | Self::Cases => true,
+            Self::Stencil | Self::Shadow | Self::Overflow | Self::Volumes | Self::Cases | Self::Bounds => true,
             Self::Final | Self::Wireframe => false,
         }
     }

@@ -162,7 +162,7 @@ fn the_windows_saved_settings_stay_unless_a_scene_is_named() {
 fn what_names_nothing_or_lies_out_of_range_is_one_line_of_bad_input() {
     for (arguments, expected) in [
         ("--technique zfail", "no technique `zfail`; there are: none, z-pass, z-fail, exact-z-pass"),
-        ("--show all", "no show `all`; there are: final, stencil, shadow, overflow, volumes, wireframe"),
+        ("--show all", "no show `all`; there are: final, stencil, shadow, overflow, volumes, cases, bounds, wireframe"),
         ("--size 0x10", "0x10"),
         ("--size 99999999999999999999999x10", "each side must be 1 to 8192"),
         ("--size 8193x10", "8193x10"),

@@ -16,5 +16,5 @@ pub use camera::{Camera, CameraError};
 pub use capabilities::{Capabilities, Lack, WideCounts};
 pub use plan::{Case, Cutout, CutoutShape, FramePlan, Gather, Method, Reason, View, VolumePlan};
 pub use step::{
-    Action, Clear, Draw, DrawSet, Label, LabelKind, LightShape, Look, Part, Program, Step, Surface, Target, VolumePart,
+    Action, Clear, Draw, DrawSet, Label, LabelKind, LightShape, Look, Part, Program, Step, Stroke, Surface, Target, VolumePart,
 };

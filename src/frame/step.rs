@@ -200,6 +200,8 @@ pub enum Program {
     TintMasked,
     /// A light's bounds, no colour.
     Bounds,
+    /// Lines and areas over the picture.
+    Lines,
 }
 
 /// What a step draws, by number.
@@ -218,6 +220,24 @@ pub enum DrawSet {
     Edges(Vec<usize>),
     /// Names over the finished picture.
     Labels(Vec<Label>),
+    /// Lines and areas over the finished picture.
+    Strokes(Vec<Stroke>),
+}
+
+/// A line, or an area with its rim. Places and widths in pixels from the upper left; colours as the
+/// picture stores them (sRGB), with alpha that is not multiplied into them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Stroke {
+    /// In order.
+    pub points: Vec<[f32; 2]>,
+    /// The last point is joined to the first.
+    pub closed: bool,
+    /// Of the line.
+    pub width: f32,
+    /// Of the line.
+    pub color: [f32; 4],
+    /// Of the area, which must be convex and closed; none for lines.
+    pub fill: Option<[f32; 4]>,
 }
 
 /// A name at its place in the picture. Places and sizes in pixels from the upper left.
@@ -241,6 +261,8 @@ pub struct Label {
 pub enum LabelKind {
     /// A light.
     Light,
+    /// The eye, seen from elsewhere.
+    Eye,
     /// Something that casts shadows.
     Caster,
 }

@@ -130,6 +130,7 @@ fn contents(set: &DrawSet) -> String {
             format!("names {}", list.join(" "))
         }
         DrawSet::Enclosure(solid) => format!("a {}", solid.name()),
+        DrawSet::Strokes(strokes) => format!("{} lines", strokes.len()),
         DrawSet::Edges(instances) => format!("edges of {} instances", instances.len()),
     }
 }

@@ -111,9 +111,9 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
             if draw.state.stencil.tests() || draw.state.stencil.writes() {
                 return Err("the picture itself has no stencil");
             }
-            let over_it = draw.target == Target::Output && matches!(draw.set, DrawSet::Labels(_));
+            let over_it = draw.target == Target::Output && is_overlay(&draw.set);
             if !over_it && !matches!(draw.set, DrawSet::FullScreen) {
-                return Err("only full-screen steps and names draw the picture");
+                return Err("only full-screen steps, names and lines draw the picture");
             }
             return Ok(());
         }
@@ -168,8 +168,8 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
     if draw.state.depth.write && state.counting {
         return Err("it writes depth after counting began: the count would belong to another surface");
     }
-    if matches!(draw.set, DrawSet::Labels(_)) && draw.target == Target::Scene {
-        return Err("names belong over the picture, not into the scene");
+    if is_overlay(&draw.set) && draw.target == Target::Scene {
+        return Err("names and lines belong over the picture, not into the scene");
     }
     if let DrawSet::Volumes(parts) = &draw.set {
         if stencil.writes() {
@@ -210,6 +210,11 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
         return check_full_screen(plan, draw, state);
     }
     Ok(())
+}
+
+/// Whether it lies over the finished picture.
+const fn is_overlay(set: &DrawSet) -> bool {
+    matches!(set, DrawSet::Labels(_) | DrawSet::Strokes(_))
 }
 
 /// A full-screen step that sets bits: the start of a count, its collapse, or a verdict read from wide

@@ -25,7 +25,7 @@ pub use enclosure::Enclosure;
 pub use eye_count::{EyeCount, holding_count};
 pub use flaw::Flaw;
 pub use frustum::NearPyramid;
-pub use reach::Body;
+pub use reach::{BOX_EDGES, Body};
 pub use sight::{Reflected, Sight};
 pub use silhouette::{Facing, Planes, light_in_object};
 pub use topology::{Topology, TopologyReport};

@@ -47,7 +47,7 @@ const ROUNDING: f64 = 1e-5;
 const SQUARE: f64 = 1e-9;
 
 /// The twelve edges of a box, as corners of [`Aabb::corners`].
-const BOX_EDGES: [[usize; 2]; 12] =
+pub const BOX_EDGES: [[usize; 2]; 12] =
     [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
 
 impl Body {

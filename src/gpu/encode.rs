@@ -3,6 +3,7 @@
 use super::context::Context;
 use super::frame_buffers::{DRAW_STRIDE, FrameBuffers};
 use super::labels::Labels;
+use super::lines::Lines;
 use super::pipelines::{Key, Pipelines, Reads, reads};
 use super::scene_buffers::SceneBuffers;
 use super::targets::{Mean, Targets};
@@ -18,6 +19,7 @@ pub struct Encode<'a> {
     pub buffers: &'a mut SceneBuffers,
     pub frame: &'a FrameBuffers,
     pub labels: &'a Labels,
+    pub lines: &'a Lines,
     pub targets: &'a Targets,
     pub output: &'a wgpu::TextureView,
     pub format: wgpu::TextureFormat,
@@ -243,6 +245,7 @@ impl Encode<'_> {
             DrawSet::Volumes(parts) => self.record_volumes(pass, plan, scene, parts, drawn),
             DrawSet::Enclosure(_) => self.record_enclosure(pass, number, drawn),
             DrawSet::Labels(_) => self.record_labels(pass, drawn),
+            DrawSet::Strokes(_) => self.record_lines(pass, drawn),
             DrawSet::Edges(instances) => self.record_edges(pass, scene, instances, drawn),
         }
     }
@@ -333,6 +336,15 @@ impl Encode<'_> {
         pass.draw_indexed(0..labels.index_count, 0, 0..1);
         drawn.draws += 1;
         drawn.triangles += u64::from(labels.index_count / 3);
+    }
+
+    fn record_lines(&self, pass: &mut wgpu::RenderPass<'_>, drawn: &mut Drawn) {
+        let Some((vertices, indices, index_count)) = self.lines.get() else { return };
+        pass.set_vertex_buffer(0, vertices.slice(..));
+        pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.draw_indexed(0..index_count, 0, 0..1);
+        drawn.draws += 1;
+        drawn.triangles += u64::from(index_count / 3);
     }
 
     fn record_edges(&self, pass: &mut wgpu::RenderPass<'_>, scene: &Scene, shown: &[usize], drawn: &mut Drawn) {

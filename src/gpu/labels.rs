@@ -77,7 +77,7 @@ impl Labels {
         for (label, text) in labels.iter().zip(&texts) {
             let color = match label.kind {
                 LabelKind::Light => OF_LIGHTS,
-                LabelKind::Caster => OF_CASTERS,
+                LabelKind::Eye | LabelKind::Caster => OF_CASTERS,
             };
             let [x, y, width, height] = label.plate;
             shapes.rectangle([x, y, width, height], PLATE);

@@ -8,6 +8,7 @@ mod cutouts;
 mod encode;
 mod frame_buffers;
 mod labels;
+mod lines;
 pub mod pipelines;
 pub mod readback;
 mod scene_buffers;
@@ -26,6 +27,7 @@ use serde::Serialize;
 pub use context::{Context, GpuError};
 use frame_buffers::FrameBuffers;
 use labels::Labels;
+use lines::Lines;
 use pipelines::Pipelines;
 use scene_buffers::SceneBuffers;
 use shaders::Library;
@@ -65,6 +67,7 @@ pub struct Renderer {
     scene: Option<SceneBuffers>,
     frame: FrameBuffers,
     labels: Labels,
+    lines: Lines,
     targets: Option<Targets>,
     timing: Timing,
 }
@@ -89,6 +92,7 @@ impl Renderer {
             scene: None,
             frame: FrameBuffers::default(),
             labels: Labels::default(),
+            lines: Lines::default(),
             targets: None,
             timing: Timing::new(context),
         })
@@ -144,6 +148,7 @@ impl Renderer {
         self.frame.write(context, &self.pipelines.frame_layout, buffers, plan, scene, pose)?;
 
         self.labels.write(context, &self.pipelines.labels_layout, plan);
+        self.lines.write(context, plan);
 
         let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         let work = encode::Encode {
@@ -152,6 +157,7 @@ impl Renderer {
             buffers,
             frame: &self.frame,
             labels: &self.labels,
+            lines: &self.lines,
             targets,
             output,
             format,

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::context::{Context, GpuError, MEAN_FORMAT, color_format};
 use super::shaders::{Library, Override, Vertices, entry_of};
-use super::types::{Attributes, Draw, Frame, LabelVertex, Light, Material, Object, Volume};
+use super::types::{Attributes, Draw, Frame, LabelVertex, Light, LineVertex, Material, Object, Volume};
 use crate::frame::state::{Blend, Compare, Cull, DepthBias, NearPlane, State, Winding};
 use crate::frame::stencil::{StencilFace, StencilOp};
 use crate::frame::{LightShape, Look, Program, Target};
@@ -242,6 +242,7 @@ impl Pipelines {
         let layout = match (entry.vertices, reads(key.program, key.target)) {
             (Vertices::Surface, _) => &self.surface,
             (Vertices::Labels, _) => &self.labels,
+            (Vertices::Lines, _) => &self.bare,
             (_, Reads::Targets) => &self.picture,
             (_, Reads::Counts) => &self.counts[0],
             (_, Reads::CountsEach) => &self.counts[1],
@@ -356,7 +357,13 @@ fn vertex_buffers(vertices: Vertices) -> &'static [Option<wgpu::VertexBufferLayo
         step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Float32x4],
     };
+    const LINES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+        array_stride: size_of::<LineVertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x4],
+    };
     match vertices {
+        Vertices::Lines => &[Some(LINES)],
         Vertices::Labels => &[Some(LABELS)],
         Vertices::None => &[],
         Vertices::Surface => &[Some(POSITION), Some(ATTRIBUTES)],

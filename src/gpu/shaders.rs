@@ -29,6 +29,7 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("labels.wgsl", include_str!("../../shaders/labels.wgsl")),
     ("stencil_only.wgsl", include_str!("../../shaders/stencil_only.wgsl")),
     ("wide.wgsl", include_str!("../../shaders/wide.wgsl")),
+    ("lines.wgsl", include_str!("../../shaders/lines.wgsl")),
     ("tint.wgsl", include_str!("../../shaders/tint.wgsl")),
     ("dark.wgsl", include_str!("../../shaders/dark.wgsl")),
     ("bounds.wgsl", include_str!("../../shaders/bounds.wgsl")),
@@ -50,6 +51,8 @@ pub enum Vertices {
     Volume,
     /// Corners of names' plates and letters.
     Labels,
+    /// Corners of lines and areas.
+    Lines,
 }
 
 /// One program's shaders.
@@ -135,6 +138,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::Tint, "tint.wgsl", "surface_vertex", "tint", Vertices::Surface, SURFACE),
     entry(Program::TintMasked, "tint.wgsl", "surface_vertex", "tint_masked", Vertices::Surface, SURFACE),
     entry(Program::Bounds, "bounds.wgsl", "bounds_vertex", "bounds", Vertices::Volume, &[]),
+    entry(Program::Lines, "lines.wgsl", "line_vertex", "line", Vertices::Lines, &[]),
 ];
 
 /// The entry of a program.

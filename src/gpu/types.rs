@@ -118,6 +118,16 @@ pub struct LabelVertex {
     pub color: [f32; 4],
 }
 
+/// A corner of a line's or an area's triangles: `LineVertex` of `lines.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
+pub struct LineVertex {
+    /// Pixels from the upper left.
+    pub at: [f32; 2],
+    /// Linear, premultiplied.
+    pub color: [f32; 4],
+}
+
 /// `struct Material` of `shared/surface.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]

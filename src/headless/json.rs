@@ -37,7 +37,7 @@ pub struct Report {
     pub points: usize,
     /// Seconds into the animation.
     pub time: f64,
-    /// The eye, world space.
+    /// Where the picture is seen from, world space: for `bounds`, from above.
     pub camera: Option<Camera>,
     /// The device.
     pub adapter: String,

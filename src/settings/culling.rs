@@ -34,14 +34,16 @@ pub enum LightBounds {
     Box,
     /// The ball of its range (L).
     Sphere,
-    /// Both, and a spot's cone.
+    /// The cone of a spot, as far as its range; nothing for other lights.
+    Cone,
+    /// All of them.
     #[default]
     Tight,
 }
 
 impl LightBounds {
     /// Every one, in the order people see them.
-    pub const ALL: [Self; 4] = [Self::None, Self::Box, Self::Sphere, Self::Tight];
+    pub const ALL: [Self; 5] = [Self::None, Self::Box, Self::Sphere, Self::Cone, Self::Tight];
 
     /// The name on the command line and in files.
     #[must_use]
@@ -50,6 +52,7 @@ impl LightBounds {
             Self::None => "none",
             Self::Box => "box",
             Self::Sphere => "sphere",
+            Self::Cone => "cone",
             Self::Tight => "tight",
         }
     }
@@ -61,7 +64,26 @@ impl LightBounds {
             Self::None => "every pixel is counted and lit",
             Self::Box => "the box about the light's range, clipped and projected (McGuire)",
             Self::Sphere => "the ball of the light's range, by the planes that touch it (Lengyel)",
+            Self::Cone => "the cone of a spot, as far as its range; other lights have none",
             Self::Tight => "ball, box and the cone of a spot, whichever is smaller",
         }
+    }
+
+    /// Whether the box about the range is among them.
+    #[must_use]
+    pub const fn has_box(self) -> bool {
+        matches!(self, Self::Box | Self::Tight)
+    }
+
+    /// Whether the ball of the range is among them.
+    #[must_use]
+    pub const fn has_ball(self) -> bool {
+        matches!(self, Self::Sphere | Self::Tight)
+    }
+
+    /// Whether a spot's cone is among them.
+    #[must_use]
+    pub const fn has_cone(self) -> bool {
+        matches!(self, Self::Cone | Self::Tight)
     }
 }

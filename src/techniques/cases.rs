@@ -107,17 +107,24 @@ pub fn classes(scene: &Scene, volumes: &[VolumePlan], light: usize, shadows: boo
     classes
 }
 
-/// Every surface in its class's colour; lays depth. Parts of a caster that cast no shadow are receivers.
+/// Every surface in its class's colour, as `color_of` has it; lays depth. Parts of a caster that cast no shadow
+/// are receivers.
 #[must_use]
-pub fn steps(scene: &Scene, groups: &[SurfaceGroup], classes: &[Class], scissor: [u32; 4]) -> Vec<Step> {
+pub fn steps(
+    scene: &Scene,
+    groups: &[SurfaceGroup],
+    classes: &[Class],
+    color_of: fn(Class) -> [f32; 3],
+    scissor: [u32; 4],
+) -> Vec<Step> {
     let meshes: Vec<_> = scene.instances().map(|(_, _, mesh)| mesh).collect();
     let class_of = |surface: Surface| {
         let casts = meshes[surface.instance].primitives[surface.primitive].casts_shadow;
         if casts { classes[surface.instance] } else { Class::Receiver }
     };
     let of_class = |class: Class| {
-        let [r, g, b] = class.color();
-        let tint = Tint { label: class.name(), why: class.words(), color: [r, g, b, 1.0] };
+        let [r, g, b] = color_of(class);
+        let tint = Tint { label: class.name(), why: class.words(), color: [r, g, b, 1.0], inside: false };
         surfaces::tinted(groups, &tint, |surface| class_of(surface) == class, scissor)
     };
     Class::ALL.into_iter().flat_map(of_class).collect()

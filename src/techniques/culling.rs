@@ -98,28 +98,31 @@ pub fn light_rect(
     clip_from_world: &DMat4,
     size: [u32; 2],
 ) -> Option<[u32; 4]> {
-    let whole = Some([0, 0, size[0], size[1]]);
-    if interest == Interest::InView || bounds == LightBounds::None {
-        return whole;
-    }
+    let whole = [0, 0, size[0], size[1]];
+    // The count itself has no bounds.
+    let bounds = if interest == Interest::InView { LightBounds::None } else { bounds };
     let (at, range) = (light.position, light.range);
-    let by_box = || if range.is_finite() { hull_rect(cube(at, range), clip_from_world, size) } else { whole };
-    let by_sphere = || if range.is_finite() { screen_rect(at, range, clip_from_world, size) } else { whole };
-    match bounds {
-        LightBounds::None => whole,
-        LightBounds::Box => by_box(),
-        LightBounds::Sphere => by_sphere(),
-        LightBounds::Tight => {
-            let by_cone = match light.kind {
-                LightKind::Spot { outer, .. } if interest == Interest::Lit => {
-                    Body::cone_within(at, light.direction, outer.into(), range)
-                }
-                _ => None,
-            };
-            let by_cone = by_cone.map_or(whole, |cone| hull_rect(cone.hull(), clip_from_world, size));
-            common(common(by_sphere()?, by_box()?)?, by_cone?)
+    let by_box = || hull_rect(cube(at, range), clip_from_world, size);
+    let by_ball = || screen_rect(at, range, clip_from_world, size);
+    let by_cone = || match light.kind {
+        // What lies outside the cone is not lit, but has a verdict.
+        LightKind::Spot { outer, .. } if interest == Interest::Lit => {
+            let cone = Body::cone_within(at, light.direction, outer.into(), range);
+            cone.map_or(Some(whole), |cone| hull_rect(cone.hull(), clip_from_world, size))
         }
+        _ => Some(whole),
+    };
+    let mut rect = whole;
+    if bounds.has_ball() && range.is_finite() {
+        rect = common(rect, by_ball()?)?;
     }
+    if bounds.has_box() && range.is_finite() {
+        rect = common(rect, by_box()?)?;
+    }
+    if bounds.has_cone() {
+        rect = common(rect, by_cone()?)?;
+    }
+    Some(rect)
 }
 
 /// The pixels of both rectangles.

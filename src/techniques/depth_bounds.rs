@@ -49,10 +49,12 @@ pub fn enclosure(light: &PosedLight, bounds: LightBounds, interest: Interest, ca
     let ball = Enclosure::Ball { center, radius };
     let solid = match (bounds, light.kind) {
         (LightBounds::Box, _) => Enclosure::Box { center, radius },
-        (LightBounds::Tight, LightKind::Spot { outer, .. }) if interest == Interest::Lit && f64::from(outer) < WIDEST => {
+        (_, LightKind::Spot { outer, .. }) if bounds.has_cone() && interest == Interest::Lit && f64::from(outer) < WIDEST => {
             let (apex, outer) = (center, f64::from(outer) + ROUNDING);
             light.direction.try_normalize().map_or(ball, |axis| Enclosure::Cone { apex, axis, outer, reach: radius })
         }
+        // A light without a cone that could be drawn.
+        (LightBounds::Cone, _) => return None,
         _ => ball,
     };
     Some(solid.grown(margin(center, radius, camera)))

@@ -19,10 +19,19 @@ const MOST: usize = 64;
 /// Longer names are cut.
 const LONGEST: usize = 40;
 
-/// The names of lights that shine from some place and of what casts shadows, as `camera` sees them in a
+/// What is named, beside the lights.
+#[derive(Debug, Clone, Copy)]
+pub struct Named {
+    /// What casts shadows.
+    pub casters: bool,
+    /// The eye, where the picture is seen from elsewhere.
+    pub eye: Option<glam::DVec3>,
+}
+
+/// The names of lights that shine from some place and of what else is `named`, as `camera` sees them in a
 /// picture of `size` pixels; and how many had no room.
 #[must_use]
-pub fn labels(scene: &Scene, pose: &Pose, camera: Camera, size: [u32; 2]) -> (Vec<Label>, usize) {
+pub fn labels(scene: &Scene, pose: &Pose, named: Named, camera: Camera, size: [u32; 2]) -> (Vec<Label>, usize) {
     let clip_from_world = Camera { shift: glam::DVec2::ZERO, ..camera }.clip_from_world();
     #[expect(clippy::cast_precision_loss, reason = "pixels")]
     let [width, height] = size.map(|side| side as f32);
@@ -49,7 +58,10 @@ pub fn labels(scene: &Scene, pose: &Pose, camera: Camera, size: [u32; 2]) -> (Ve
             want(LabelKind::Light, &light.name, posed.center);
         }
     }
-    for (node_index, node, mesh) in scene.instances() {
+    if let Some(eye) = named.eye {
+        want(LabelKind::Eye, "eye", eye);
+    }
+    for (node_index, node, mesh) in scene.instances().filter(|_| named.casters) {
         if node.casts_shadow && mesh.primitives.iter().any(|primitive| primitive.casts_shadow) {
             want(LabelKind::Caster, &node.name, pose.world_bounds(scene, node_index).center().as_dvec3());
         }

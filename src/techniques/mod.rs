@@ -8,8 +8,10 @@
 //! A further technique is a line in [`Technique`], a file here with its `ROW`, and its name in
 //! [`TABLE`]; panel, command line, lists and the tour read those.
 
+pub mod above;
 mod auto;
 pub mod beam;
+pub mod bounds;
 pub mod cases;
 pub mod counting;
 pub mod culling;

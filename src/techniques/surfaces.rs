@@ -204,6 +204,9 @@ pub struct Tint<'a> {
     pub why: &'a str,
     /// As the picture stores it (sRGB, 0 to 1), with alpha.
     pub color: [f32; 4],
+    /// What is seen from behind, of surfaces that are otherwise drawn from the front alone: the inside of what
+    /// the near plane cuts open.
+    pub inside: bool,
 }
 
 /// The surfaces that `wanted` takes, in one colour and shaded by their slope alone; lays depth.
@@ -213,7 +216,11 @@ pub fn tinted(groups: &[SurfaceGroup], tint: &Tint<'_>, wanted: impl Fn(Surface)
         program: if group.kind.masked { Program::TintMasked } else { Program::Tint },
         look: Look { textured: group.kind.masked && group.kind.look.textured, ..Look::default() },
         target: Target::Scene,
-        state: State { depth: Depth::LAY, ..group.again(Blend::Replace, StencilState::IGNORE) },
+        state: State {
+            depth: Depth::LAY,
+            cull: if tint.inside { Cull::Front } else { group.kind.cull },
+            ..group.again(Blend::Replace, StencilState::IGNORE)
+        },
         stencil_reference: 0,
         scissor,
         light: None,
@@ -221,7 +228,9 @@ pub fn tinted(groups: &[SurfaceGroup], tint: &Tint<'_>, wanted: impl Fn(Surface)
         set: DrawSet::Surfaces(surfaces),
     };
     let of_group = |group: &SurfaceGroup| {
-        let surfaces: Vec<_> = group.surfaces.iter().copied().filter(|surface| wanted(*surface)).collect();
+        let has_inside = group.kind.cull != Cull::None;
+        let drawn = group.surfaces.iter().copied().filter(|surface| wanted(*surface) && (has_inside || !tint.inside));
+        let surfaces: Vec<_> = drawn.collect();
         (!surfaces.is_empty()).then(|| step(format!("{}{}", tint.label, group.words()), tint.why, draw(group, surfaces)))
     };
     groups.iter().filter_map(of_group).collect()

@@ -7,6 +7,7 @@ use super::{Desk, Panel, View, gizmo};
 use crate::app::control::{self, Mode};
 use crate::app::keys;
 use crate::frame::Camera;
+use crate::settings::Show;
 
 /// Points of wheel travel that egui reports for one notch.
 const NOTCH: f64 = 50.0;
@@ -37,12 +38,12 @@ pub fn picture(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
     if let Some(at) = pressed
         && held
     {
-        panel.drag = gizmo::grab(panel.selected_light, &panel.icons, desk, view, &camera, rect, at);
+        panel.drag = gizmo::grab(panel.selected_light, &panel.icons, desk, view, &seen_by(desk, view, camera), rect, at);
     }
     if response.clicked()
         && let Some(at) = response.interact_pointer_pos()
     {
-        match panel.drag.take().or_else(|| gizmo::grab(None, &panel.icons, desk, view, &camera, rect, at)) {
+        match panel.drag.take().or_else(|| gizmo::grab(None, &panel.icons, desk, view, &seen_by(desk, view, camera), rect, at)) {
             Some(light) => panel.choose_light(light.light),
             None => panel.selected_light = None,
         }
@@ -53,7 +54,14 @@ pub fn picture(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
                 && response.dragged_by(PointerButton::Primary)
             {
                 panel.choose_light(drag.light);
-                gizmo::follow(&mut drag, desk, &camera, rect, mouse, ui.input(|input| input.modifiers.shift));
+                gizmo::follow(
+                    &mut drag,
+                    desk,
+                    &seen_by(desk, view, camera),
+                    rect,
+                    mouse,
+                    ui.input(|input| input.modifiers.shift),
+                );
                 panel.drag = Some(drag);
             }
         }
@@ -65,10 +73,17 @@ pub fn picture(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
     wheel(ui, &response, desk, view);
     fly(ui, desk, view);
     if let Some(camera) = super::camera_of(desk.settings, view) {
+        let camera = seen_by(desk, view, camera);
         panel.icons = gizmo::paint(ui, panel.selected_light, panel.drag, desk, view, &camera, rect);
     }
     super::verify::overlay(ui, rect, desk, view);
     rect
+}
+
+/// What the picture is seen by: the eye that the settings ask for, or the one above that looks down on it.
+fn seen_by(desk: &Desk<'_>, view: &View<'_>, eye: Camera) -> Camera {
+    let above = view.plan.filter(|_| desk.settings.show == Show::Bounds).and_then(|plan| plan.views.first());
+    above.map_or(eye, |above| above.camera)
 }
 
 fn turn(response: &Response, desk: &mut Desk<'_>, camera: &Camera, rect: Rect) {

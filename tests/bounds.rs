@@ -1,0 +1,223 @@
+//! The view from above: its lines are where the projection says, what covers the eye is cut away. And every
+//! way to bound a light gives the same pixels.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::{Build, Shot, Stage, cube, seen_from};
+use glam::{DVec3, Vec3};
+use obscura::director::stage;
+use obscura::frame::{Camera, Capabilities, FramePlan, Program};
+use obscura::headless::wander::strays;
+use obscura::scene::{LightKind, Scene, stock};
+use obscura::settings::{Culling, LightBounds, LightEdit, Settings, Show, Technique};
+use obscura::techniques::bounds::EYE;
+use obscura::techniques::cases::Class;
+
+const SIZE: [u32; 2] = [640, 360];
+const LAMP: DVec3 = DVec3::new(6.0, 1.0, -4.0);
+const RANGE: f64 = 9.0;
+
+/// A caster in the view, a caster beside it that shades the eye, one beyond the green lamp's range; the eye
+/// looks along -z.
+fn scene() -> (Scene, Settings) {
+    let mut build = Build::new();
+    build.floor(-1.0, 30.0);
+    let cube = build.mesh(cube(0));
+    build.place(cube, DVec3::new(0.0, 0.0, -6.0), DVec3::ONE);
+    build.place(cube, DVec3::new(3.0, 0.5, -2.0), DVec3::splat(0.5));
+    build.place(cube, DVec3::new(-6.0, 0.0, -4.0), DVec3::ONE);
+    let lamp = build.point_light(LAMP);
+    build.0.lights[lamp].range = RANGE as f32;
+    build.0.lights[lamp].color = Vec3::Y;
+    let settings = seen_from(DVec3::ZERO, DVec3::new(0.0, 0.0, -10.0), SIZE);
+    (build.0, Settings { show: Show::Bounds, technique: Technique::Auto, ..settings })
+}
+
+fn planned(scene: &Scene, settings: &Settings) -> FramePlan {
+    stage(settings, scene, &Capabilities::complete()).unwrap().1
+}
+
+/// Where the picture from above has a place; none outside.
+fn pixel_of(plan: &FramePlan, place: DVec3) -> Option<[f64; 2]> {
+    let clip = plan.views[0].camera.clip_from_world() * place.extend(1.0);
+    let at = [(clip.x / clip.w * 0.5 + 0.5) * f64::from(SIZE[0]), (0.5 - clip.y / clip.w * 0.5) * f64::from(SIZE[1])];
+    let inside = (0..2).all(|axis| (1.0..f64::from(SIZE[axis]) - 1.0).contains(&at[axis]));
+    (inside && clip.w > 0.0).then_some(at)
+}
+
+fn color(shot: &Shot, at: [f64; 2]) -> [f32; 3] {
+    let pixel = shot.image.get_pixel(at[0] as u32, at[1] as u32).0;
+    [0, 1, 2].map(|channel| f32::from(pixel[channel]) / 255.0)
+}
+
+fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
+    (0..3).map(|channel| (a[channel] - b[channel]).abs()).fold(0.0, f32::max)
+}
+
+#[test]
+fn the_eyes_frustum_is_where_the_projection_says() {
+    let mut stage = Stage::new();
+    let (scene, settings) = scene();
+    stage.set_scene(&scene);
+    let shot = stage.shoot(&settings, &scene);
+    let eye = planned(&scene, &Settings { show: Show::Final, ..settings.clone() }).views[0].camera;
+    assert_eq!(shot.plan.views[0].camera.forward, DVec3::NEG_Y);
+    let mut on_line = 0;
+    for corner in eye.near_rectangle() {
+        let way = (corner - eye.eye).normalize();
+        // Clear of the name, and before the ray leaves the layer of height that is framed.
+        for metres in [1.6, 2.0, 2.3, 2.6] {
+            let at = pixel_of(&shot.plan, eye.eye + way * metres).unwrap();
+            assert!(distance(color(&shot, at), EYE) < 0.02, "{at:?}: {:?}", color(&shot, at));
+            // Outside of all four rays: they differ by their height, which the perspective shows.
+            let side = way.x.signum() * 20.0;
+            let beside = color(&shot, [at[0] + side, at[1]]);
+            assert!(distance(beside, EYE) > 0.2, "beside {at:?}: {beside:?}");
+            on_line += 1;
+        }
+    }
+    assert_eq!(on_line, 16);
+}
+
+#[test]
+fn a_lights_range_is_a_circle_of_its_hue() {
+    let mut stage = Stage::new();
+    let (scene, settings) = scene();
+    stage.set_scene(&scene);
+    let circle = |range: f64| {
+        (0..360).map(move |degree| {
+            let (sin, cos) = f64::from(degree).to_radians().sin_cos();
+            LAMP + DVec3::new(cos, 0.0, sin) * range
+        })
+    };
+    let green = |[r, g, b]: [f32; 3]| g > 0.97 && r < 0.6 && b < 0.6;
+    let count = |shot: &Shot, range: f64| {
+        let there: Vec<_> = circle(range).filter_map(|place| pixel_of(&shot.plan, place)).collect();
+        (there.iter().filter(|at| green(color(shot, **at))).count(), there.len())
+    };
+    let shot = stage.shoot(&settings, &scene);
+    let (on_circle, there) = count(&shot, RANGE);
+    // The eye's lines, the dashes to it and names lie over it here and there.
+    assert!(there > 50 && on_circle * 10 > there * 9, "{on_circle} of {there}");
+    let (within, there) = count(&shot, RANGE * 0.9);
+    assert!(there > 50 && within * 10 < there, "{within} of {there} within");
+    // Without an end there is no circle.
+    let mut endless = settings;
+    endless.lights.insert(0, LightEdit { range: Some(f32::INFINITY), ..LightEdit::default() });
+    let shot = stage.shoot(&endless, &scene);
+    let (on_circle, there) = count(&shot, RANGE);
+    assert!(on_circle * 10 < there, "{on_circle} of {there}");
+}
+
+#[test]
+fn casters_have_their_cases_colours_also_out_of_the_eyes_view() {
+    let mut stage = Stage::new();
+    let (scene, settings) = scene();
+    stage.set_scene(&scene);
+    let shot = stage.shoot(&settings, &scene);
+    let hue = |[r, g, b]: [f32; 3]| {
+        let mean = (r + g + b) / 3.0;
+        [r - mean, g - mean, b - mean].map(|part| part / mean)
+    };
+    let class_at = |place: DVec3| {
+        let found = hue(color(&shot, pixel_of(&shot.plan, place).unwrap()));
+        let near = |class: &Class| distance(found, hue(class.color()));
+        Class::ALL.into_iter().min_by(|a, b| near(a).total_cmp(&near(b))).unwrap()
+    };
+    // The tops of the three cubes, beside the lines that cross them.
+    assert_eq!(class_at(DVec3::new(0.3, 1.0, -6.2)), Class::One);
+    assert_eq!(class_at(DVec3::new(3.2, 1.0, -1.7)), Class::Two);
+    assert_eq!(class_at(DVec3::new(-6.2, 1.0, -4.2)), Class::LeftOut);
+    let cases = planned(&scene, &Settings { show: Show::Cases, ..settings.clone() });
+    assert_eq!(cases.volumes, shot.plan.volumes, "both shows tell the same");
+    let lit = planned(&scene, &Settings { show: Show::Final, ..settings });
+    assert_eq!(lit.volumes, shot.plan.volumes, "and so does the picture");
+}
+
+#[test]
+fn everything_is_in_the_view_from_above() {
+    for row in stock::TABLE {
+        let scene = stock::build(row.name).unwrap().unwrap();
+        let settings = Settings { show: Show::Bounds, size: SIZE, ..Settings::default() };
+        let (pose, plan) = stage(&settings, &scene, &Capabilities::complete()).unwrap();
+        let eye = Camera::choose(&settings, &scene, &pose).unwrap().eye;
+        assert!(pixel_of(&plan, eye).is_some(), "{}: the eye", row.name);
+        for (node, _, _) in scene.instances().filter(|(_, node, _)| node.casts_shadow) {
+            for corner in pose.world_bounds(&scene, node).corners() {
+                assert!(pixel_of(&plan, corner).is_some(), "{}: {}", row.name, scene.nodes[node].name);
+            }
+        }
+        assert!(plan.draws().any(|(_, draw)| draw.program == Program::Lines), "{}", row.name);
+    }
+}
+
+#[test]
+fn what_covers_the_eye_is_cut_away_and_nothing_else() {
+    let mut stage = Stage::new();
+    let room = |roofed: bool| {
+        let mut build = Build::new();
+        build.floor(0.0, 5.0);
+        let slab = build.mesh(cube(0));
+        let shift = if roofed { 0.0 } else { 6.0 };
+        build.place(slab, DVec3::new(shift, 3.1, 0.0), DVec3::new(2.5, 0.1, 2.5));
+        build.place(slab, DVec3::new(1.2, 0.3, -1.2), DVec3::splat(0.3));
+        build.point_light(DVec3::new(-1.0, 2.0, 0.5));
+        let settings = seen_from(DVec3::new(0.0, 1.0, 1.5), DVec3::new(0.0, 0.5, -3.0), SIZE);
+        (build.0, Settings { show: Show::Bounds, technique: Technique::Auto, ..settings })
+    };
+    for roofed in [true, false] {
+        let (scene, settings) = room(roofed);
+        stage.set_scene(&scene);
+        let shot = stage.shoot(&settings, &scene);
+        let told = shot.plan.notes.iter().any(|note| note.contains("cut away"));
+        assert_eq!(told, roofed, "{:?}", shot.plan.notes);
+        // The small cube under the roof, or beside it, is seen: bluer than the floor is.
+        let [r, _, b] = color(&shot, pixel_of(&shot.plan, DVec3::new(1.2, 0.6, -1.2)).unwrap());
+        assert!(b > r * 1.5 && b > 0.5, "roofed {roofed}: {r} {b}");
+    }
+    // The roof is there from above when the eye stands beside it.
+    let (scene, settings) = room(true);
+    let beside = seen_from(DVec3::new(0.0, 1.0, 4.5), DVec3::new(0.0, 0.5, -3.0), SIZE);
+    let plan = planned(&scene, &Settings { camera: beside.camera, ..settings });
+    assert!(!plan.notes.iter().any(|note| note.contains("cut away")), "{:?}", plan.notes);
+}
+
+#[test]
+fn every_way_to_bound_a_light_gives_the_same_pixels() {
+    const VIEWS: usize = 8;
+    let size = [160, 90];
+    let mut stage = Stage::new();
+    let mut smaller = [0; LightBounds::ALL.len()];
+    for name in ["projector", "courtyard", "shadowfun"] {
+        let scene = stock::build(name).unwrap().unwrap();
+        stage.set_scene(&scene);
+        let base = Settings { size, technique: Technique::Auto, ..Settings::default() };
+        // Spots first: they alone have cones.
+        let spot = scene.lights.iter().position(|light| matches!(light.kind, LightKind::Spot { .. }));
+        for stray in strays(&scene, &base, spot, VIEWS, 7) {
+            let mut settings = stray.settings;
+            let by = |light_bounds| Culling { light_bounds, ..Culling::default() };
+            for show in [Show::Shadow, Show::Final] {
+                settings.show = show;
+                settings.culling = by(LightBounds::None);
+                let expected = stage.shoot(&settings, &scene);
+                for (index, bounds) in LightBounds::ALL.into_iter().enumerate() {
+                    settings.culling = by(bounds);
+                    let shot = stage.shoot(&settings, &scene);
+                    // A light that is not added at all leaves a sum whose last bits may differ.
+                    let most = if show == Show::Shadow { 0 } else { 1 };
+                    let differs = expected.image.as_raw().iter().zip(shot.image.as_raw()).any(|(a, b)| a.abs_diff(*b) > most);
+                    assert!(!differs, "{} bounds: {}", bounds.name(), obscura::cli::render_command(&settings));
+                    let area = |plan: &FramePlan| {
+                        let of_light = plan.draws().filter(|(_, draw)| draw.light == Some(settings.light));
+                        of_light.map(|(_, draw)| draw.scissor[2] * draw.scissor[3]).max().unwrap_or(0)
+                    };
+                    smaller[index] += usize::from(area(&shot.plan) < area(&expected.plan));
+                }
+            }
+        }
+    }
+    let [none, others @ ..] = smaller;
+    assert!(none == 0 && others.iter().all(|count| *count > 3), "each bounds something somewhere: {smaller:?}");
+}
