@@ -126,7 +126,9 @@ fn stencil_colors(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
         let stripe = ((i32(pixel.x) + i32(pixel.y)) / max(i32(frame.size.y) / 180, 1)) % 4 == 0;
         return vec4f(encoded(vec3f(dimmed) + select(vec3f(0.0), vec3f(0.05, 0.06, 0.09), stripe)), 1.0);
     }
-    let count = stored & ~beyond;
+    // Points of a light have a bit each: how many are set.
+    let points = u32(draw.constant.g);
+    let count = select(stored & ~beyond, countOneBits(stored & points), points != 0u);
     if count > 0u {
         return vec4f(count_color(count), 1.0);
     }

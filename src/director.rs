@@ -4,6 +4,8 @@
 //! its steps, in order, and the result is plain data ([`FramePlan`]); [`stage`] adds what comes
 //! before (pose, camera) and after (validation), for the window and the headless commands alike.
 
+mod rounds;
+
 use std::cell::OnceCell;
 
 use glam::DVec2;
@@ -27,6 +29,7 @@ use crate::techniques::cases::{self, Class};
 use crate::techniques::counting::LightCount;
 use crate::techniques::culling::{Audience, Interest, Stalls, light_rect};
 use crate::techniques::labels::{self, Named};
+use crate::techniques::own_bits::{Round, Shining};
 use crate::techniques::{self, Caster, bounds, counting, depth_bounds, show, surfaces, wide};
 
 /// Why a frame cannot be planned: one line each.
@@ -141,7 +144,7 @@ pub fn plan(
 
     match settings.show {
         Show::Stencil | Show::Shadow => {
-            let count = frame.count(settings.light);
+            let rounds::Counted { count, points_mask } = frame.count_shown(settings.light);
             let shows_stencil = settings.show == Show::Stencil;
             frame.clear_all([0.0; 4], count.base);
             frame.extend(surfaces::ambient(&groups, whole));
@@ -150,7 +153,7 @@ pub fn plan(
             }
             frame.extend(count.steps);
             if shows_stencil {
-                frame.push(show::stencil_colors(count.budget, whole));
+                frame.push(show::stencil_colors(count.budget, points_mask, whole));
             } else {
                 let scissor = frame.light_rect(settings.light);
                 if let Some(scissor) = scissor {
@@ -198,46 +201,33 @@ pub fn plan(
         }
         Show::Final | Show::Volumes | Show::Wireframe => {
             let darkens = techniques::row(settings.technique).darkens;
-            let mut lights = Vec::new();
-            for light in (0..pose.lights.len()).filter(|&light| pose.lights[light].on) {
-                if let Some(scissor) = frame.light_rect(light) {
-                    let count = if darkens.is_none() { frame.count(light) } else { LightCount::default() };
-                    lights.push((light, scissor, count));
-                }
-            }
+            let mut rounds = frame.rounds();
             let transparent = surfaces::transparent(scene, pose, &frame.plan.views[0], whole);
-            if lights.len() <= 1 && darkens.is_none() && transparent.is_empty() && frame.may_draw_directly() {
-                let only = lights.pop().map(|(light, _, count)| (light, count));
-                frame.draw_directly(only, &groups);
+            let one_light = rounds.iter().map(|round| round.lights.len()).sum::<usize>() <= 1;
+            if one_light && darkens.is_none() && transparent.is_empty() && frame.may_draw_directly() {
+                frame.draw_directly(rounds.pop(), &groups);
                 frame.label(Target::Direct);
                 return frame.plan;
             }
-            let mut stored = lights.first().map_or(0, |(_, _, count)| count.base);
-            frame.clear_all([0.0; 4], stored);
+            let lights: Vec<_> = rounds.iter().flat_map(|round| &round.lights).map(|shining| shining.light).collect();
+            frame.start(rounds.first().map_or(0, |round| round.base));
             frame.extend(surfaces::ambient(&groups, whole));
-            let mut counted = false;
-            for (light, scissor, count) in &mut lights {
-                let (light, scissor) = (*light, *scissor);
-                if counted || count.base != stored {
-                    frame.reset_stencil(light, count.base);
-                    stored = count.base;
+            for round in rounds {
+                frame.start_round(&round);
+                frame.extend(round.steps);
+                for Shining { light, rect, budget } in round.lights {
+                    let once = budget.map_or_else(|| frame.unused_bit(Some(light)), StencilState::light_once);
+                    let reached = frame.reached(light);
+                    frame.extend(surfaces::lit(&groups, light, (&pose.lights[light]).into(), rect, once, &reached));
                 }
-                counted = !count.steps.is_empty();
-                let unshadowed = count.steps.is_empty() && count.base == 0;
-                frame.extend(std::mem::take(&mut count.steps));
-                let stencil = if unshadowed { StencilState::IGNORE } else { StencilState::count_equals(count.budget) };
-                frame.extend(surfaces::lit(
-                    &groups,
-                    light,
-                    (&pose.lights[light]).into(),
-                    scissor,
-                    stencil,
-                    &frame.reached(light),
-                ));
             }
-            frame.extend(surfaces::textures(&groups, whole));
+            if surfaces::textured_last(&groups) {
+                let once = frame.unused_bit(None);
+                frame.extend(surfaces::textures(&groups, once, whole));
+            }
             if let Some(color) = darkens {
-                for (light, ..) in lights {
+                frame.start_round(&Round::default());
+                for light in lights {
                     frame.darken(light, color);
                 }
             }
@@ -270,6 +260,9 @@ struct Frame<'a> {
     pose: &'a Pose,
     capabilities: &'a Capabilities,
     near_pyramid: NearPyramid,
+    /// What the stencil was cleared to last, and which bits are no longer so.
+    stored: u8,
+    used: u8,
     /// Where everything is.
     stalls: Stalls,
     /// Every surface, and the eye: volumes need not reach farther.
@@ -311,7 +304,7 @@ impl<'a> Frame<'a> {
         let near_pyramid = NearPyramid::of(camera.eye, camera.near_rectangle());
         let receivers = scene.bounds(pose).union(&Aabb::around(camera.eye, camera.eye));
         let stalls = Stalls::new(scene, pose, &plan.views[0]);
-        let mut frame = Self { settings, scene, pose, capabilities, near_pyramid, stalls, receivers, plan };
+        let mut frame = Self { settings, scene, pose, capabilities, near_pyramid, stored: 0, used: 0, stalls, receivers, plan };
         frame.choose_bits();
         frame
     }
@@ -363,21 +356,21 @@ impl<'a> Frame<'a> {
 
     /// The frame of one light at most, with nothing blended: depth, the count, and then every surface
     /// once, in its final colour. Nothing is accumulated, so the linear target is not used at all.
-    fn draw_directly(&mut self, only: Option<(usize, counting::LightCount)>, groups: &[surfaces::SurfaceGroup]) {
+    fn draw_directly(&mut self, only: Option<Round>, groups: &[surfaces::SurfaceGroup]) {
         let whole = self.whole();
-        let (light, count) = only.map_or((None, counting::LightCount::default()), |(light, count)| (Some(light), count));
-        self.clear_all([0.0, 0.0, 0.0, 1.0], count.base);
+        let round = only.unwrap_or_default();
+        self.clear_all([0.0, 0.0, 0.0, 1.0], round.base);
         self.extend(surfaces::depth(groups, whole));
-        let (shadowed, budget) = (count.base != 0 || !count.steps.is_empty(), count.budget);
-        for step in count.steps {
+        for step in round.steps {
             self.push(Step { action: step.action.onto(Target::Direct), ..step });
         }
-        let reached = light.map(|light| self.reached(light)).unwrap_or_default();
-        let only = light.map(|light| surfaces::OnlyLight {
+        let shining = round.lights.first();
+        let reached = shining.map(|shining| self.reached(shining.light)).unwrap_or_default();
+        let only = shining.map(|&Shining { light, budget, .. }| surfaces::OnlyLight {
             light,
             shape: (&self.pose.lights[light]).into(),
             reached: &reached,
-            budget: shadowed.then_some(budget),
+            budget,
         });
         self.extend(surfaces::finished(groups, only.as_ref(), whole));
         self.push(show::background(whole));
@@ -406,9 +399,10 @@ impl<'a> Frame<'a> {
 
     fn count_by(&mut self, row: &techniques::Row, light: usize) -> LightCount {
         let mut volumes = std::mem::take(&mut self.plan.volumes);
-        let count = self
-            .casters(light)
-            .map(|(casters, scissor)| counting::count_light(row, &casters, &self.ask(light, scissor), &mut volumes));
+        let count = self.light_rect(light).and_then(|scissor| {
+            let casters = self.casters(light, scissor)?;
+            Some(counting::count_light(row, &casters, &self.ask(light, scissor), &mut volumes))
+        });
         self.plan.volumes = volumes;
         let Some(count) = count else { return LightCount { budget: self.plan.budget.without_bounds(), ..LightCount::default() } };
         // The points of one light have much the same to say.
@@ -426,7 +420,7 @@ impl<'a> Frame<'a> {
         let row = techniques::row(self.settings.technique);
         let mut volumes = std::mem::take(&mut self.plan.volumes);
         let mut steps = Vec::new();
-        if let Some((casters, _)) = self.casters(light) {
+        if let Some(casters) = self.light_rect(light).and_then(|rect| self.casters(light, rect)) {
             for caster in casters.chunks(1) {
                 let count = counting::count_light(row, caster, &self.ask(light, whole), &mut volumes);
                 if !count.steps.is_empty() {
@@ -439,10 +433,12 @@ impl<'a> Frame<'a> {
         self.extend(steps);
     }
 
-    /// What casts shadows before a light, and the pixels it is counted in; `None` where nothing is.
-    fn casters(&self, light: usize) -> Option<(Vec<Caster<'_>>, [u32; 4])> {
+    /// What casts shadows before a light that is counted in `scissor`; `None` where nothing does.
+    fn casters(&self, light: usize, scissor: [u32; 4]) -> Option<Vec<Caster<'_>>> {
         let posed = &self.pose.lights[light];
-        let scissor = self.light_rect(light).filter(|_| posed.shadows)?;
+        if !posed.shadows {
+            return None;
+        }
         let view = &self.plan.views[0];
         let culling = self.settings.culling;
         let interest = self.settings.show.into();
@@ -485,7 +481,7 @@ impl<'a> Frame<'a> {
                 }
             })
             .collect();
-        Some((casters, scissor))
+        Some(casters)
     }
 
     fn ask(&self, light: usize, scissor: [u32; 4]) -> counting::Ask<'a> {
@@ -594,14 +590,5 @@ impl<'a> Frame<'a> {
     fn clear_color(&mut self, color: [f32; 4]) {
         let why = "Depth is laid; colour starts at the grey that means neither lit nor in shadow.";
         self.clear("clear colour".into(), why, Clear { color: Some(color), depth: None, stencil: None, counts: None });
-    }
-
-    fn reset_stencil(&mut self, light: usize, value: u8) {
-        let why = "Each light counts anew, from how many of its volumes hold the eye.";
-        self.clear(
-            format!("light {light}: reset the count"),
-            why,
-            Clear { color: None, depth: None, stencil: Some(value), counts: None },
-        );
     }
 }

@@ -75,6 +75,7 @@
 //!         [  shadow count ]      modulo 256; mirrors will take the high bits
 //!         V [shadow count ]      counting in batches: V, shadowed by a batch before; modulo 128
 //!         B [shadow count ]      within depth bounds: B, beyond the light's bounds, nothing is counted
+//!         d c b a [ count ]      points of a light with a size, each with a bit of its own
 //! ```
 //!
 //! [`frame::stencil`] owns them; no other code writes a mask. Counting wraps, so the order of faces does

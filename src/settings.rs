@@ -9,7 +9,7 @@ mod lighting;
 
 pub use counting::{Counting, MAX_COUNT_BITS, Overflow};
 pub use culling::{Culling, LightBounds};
-pub use lighting::{Accumulation, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
+pub use lighting::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -4,15 +4,15 @@
 
 mod common;
 
-use common::{Build, Stage, cube, seen_from};
+use common::{Build, Stage, cube, mesh, seen_from, square};
 use glam::{DVec3, Vec3};
 use image::RgbaImage;
 use obscura::director::{StageError, frames, stage, stage_frame};
 use obscura::frame::validate::validate;
-use obscura::frame::{Action, Capabilities, DrawSet, Gather, Label, Program, Target};
+use obscura::frame::{Action, Capabilities, Draw, DrawSet, Gather, Label, Program, Target};
 use obscura::gpu::readback;
 use obscura::scene::{Environment, Extent, LightKind, Scene, Texture, Wrap};
-use obscura::settings::{Accumulation, LightEdit, Lighting, Settings, Show, SlideChoice, Texturing};
+use obscura::settings::{Accumulation, AreaMode, LightEdit, Lighting, Settings, Show, SlideChoice, Technique, Texturing};
 
 const SIZE: [u32; 2] = [160, 160];
 
@@ -367,4 +367,153 @@ fn textures_once_are_the_same_on_matt_surfaces_and_tint_highlights() {
         each.pixels().zip(last.pixels()).max_by_key(|(a, b)| (0..3).map(|i| a.0[i].abs_diff(b.0[i])).max()).unwrap();
     let spread = |pixel: &image::Rgba<u8>| pixel.0[..3].iter().max().unwrap() - pixel.0[..3].iter().min().unwrap();
     assert!(spread(tinted) > spread(white) + 20, "{white:?} and {tinted:?}");
+}
+
+/// A lamp of some size over a floor, and `casters` between them.
+fn under_a_lamp(casters: impl Fn(&mut Build)) -> (Scene, Settings) {
+    let mut build = dark(Build::new());
+    build.floor(0.0, 20.0);
+    casters(&mut build);
+    let lamp = build.point_light(DVec3::new(0.5, 12.0, 0.2));
+    build.0.lights[lamp].extent = Extent::Round(0.6);
+    (build.0, seen_from(DVec3::new(0.0, 6.0, 9.0), DVec3::new(0.0, 0.5, 0.0), SIZE))
+}
+
+/// Sheets one above the other, as one mesh or each by itself.
+fn sheets(build: &mut Build, count: u16, one_mesh: bool) {
+    let height = |at: u16| 1.0 + f32::from(at) * 0.02;
+    if one_mesh {
+        let corners =
+            (0..count).flat_map(|at| [[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]].map(|[x, z]| [x, height(at), z]));
+        let corners: Vec<[f32; 3]> = corners.collect();
+        let quads = (0..u32::from(count)).flat_map(|at| [[0, 1, 2], [0, 2, 3]].map(|quad| quad.map(|corner| at * 4 + corner)));
+        let triangles: Vec<[u32; 3]> = quads.collect();
+        let stack = build.mesh(mesh("stack", &corners, &triangles, 1));
+        build.place(stack, DVec3::ZERO, DVec3::ONE);
+    } else {
+        let sheet = build.mesh(square(1));
+        (0..count).for_each(|at| _ = build.place(sheet, DVec3::new(0.0, height(at).into(), 0.0), DVec3::ONE));
+    }
+}
+
+fn cubes(build: &mut Build, places: &[[f64; 3]]) {
+    let solid = build.mesh(cube(0));
+    places.iter().for_each(|&at| _ = build.place(solid, DVec3::from(at), DVec3::splat(0.6)));
+}
+
+/// Each point's bit is what the point counted by itself says, and the picture is the same to the last bit,
+/// whichever way the bits come about.
+#[test]
+fn a_bit_for_each_point_holds_what_the_points_hold_one_by_one() {
+    type Casters = fn(&mut Build);
+    let cases: [(&str, usize, Casters); 4] = [
+        ("turned over by every face", 1, |build| cubes(build, &[[0.0, 2.0, 0.0], [-3.0, 1.0, 1.0]])),
+        ("4 at a time, counted in 4 bits and collapsed into it", 2, |build| cubes(build, &[[0.0, 2.0, 0.0], [0.3, 4.0, 0.2]])),
+        ("of 8 points in batches of at most 15", 2, |build| sheets(build, 40, false)),
+        ("counted wide", 1, |build| sheets(build, 40, true)),
+    ];
+    let mut stage = Stage::new();
+    for (how, rounds, casters) in cases {
+        let (scene, settings) = under_a_lamp(casters);
+        stage.set_scene(&scene);
+        let under_it = seen_from(DVec3::new(0.1, 0.6, 0.1), DVec3::new(0.5, 0.0, 0.2), SIZE);
+        for (place, settings) in [settings, under_it].into_iter().enumerate() {
+            for technique in
+                [Technique::ZFail, Technique::ExactZPass, Technique::Auto, Technique::OneSided, Technique::PerPolygon]
+            {
+                // All of it for one technique, a part of it for the others.
+                let samples: &[u32] = if technique == Technique::ExactZPass { &[0, 1, 2, 3, 4, 5, 6, 7] } else { &[3, 6] };
+                let settings = Settings { technique, ..settings.clone() };
+                let by = |area_mode, light_sample, show| Settings {
+                    show,
+                    lighting: Lighting { area_mode, light_sample, ..settings.lighting },
+                    ..settings.clone()
+                };
+                let one_by_one = stage.shoot(&by(AreaMode::Points, 0, Show::Final), &scene);
+                let together = stage.shoot(&by(AreaMode::Bits, 0, Show::Final), &scene);
+                let notes = &together.plan.notes;
+                let told = format!("{how}, {}, from place {place}: {notes:?}", technique.name());
+                assert!(together.image == one_by_one.image, "{told}");
+                let clears = together
+                    .plan
+                    .steps
+                    .iter()
+                    .filter(|step| matches!(&step.action, Action::Clear(clear) if clear.stencil.is_some()));
+                assert!(notes.iter().any(|note| note.contains(how)), "{told}");
+                assert_eq!(clears.count(), rounds, "{told}");
+                // The bits of the first round, as they are when all of it is counted.
+                stage.shoot(&by(AreaMode::Bits, 0, Show::Stencil), &scene);
+                let stencil = stage.stencil();
+                let mut bits = 0;
+                for &sample in samples {
+                    let verdict = stage.shoot(&by(AreaMode::Points, sample, Show::Shadow), &scene).image;
+                    let shot = stage.shoot(&by(AreaMode::Bits, sample, Show::Shadow), &scene);
+                    assert!(shot.image == verdict, "point {sample}: {told}");
+                    if sample as usize >= 8 / rounds {
+                        continue;
+                    }
+                    let adds = |draw: &Draw| draw.program == Program::Lit && draw.light == Some(sample as usize);
+                    let (_, added) = together.plan.draws().find(|(_, draw)| adds(draw)).unwrap();
+                    let bit = added.state.stencil.read_mask;
+                    assert!(bit.is_power_of_two() && bits & bit == 0, "{told}");
+                    bits |= bit;
+                    let mut seen = [0; 2];
+                    for (pixel, stencil) in verdict.pixels().zip(&stencil).filter(|(pixel, _)| pixel.0[0] != 128) {
+                        assert_eq!(stencil & bit == 0, pixel.0[0] == 255, "point {sample}: {told}");
+                        seen[usize::from(stencil & bit == 0)] += 1;
+                    }
+                    assert!(seen[0] > 30, "{seen:?}, point {sample}: {told}");
+                }
+            }
+        }
+    }
+}
+
+/// What is in one place twice is lit once, whether the light is counted, is not, or is one of many; and
+/// textured once.
+#[test]
+fn of_two_surfaces_in_one_place_only_one_takes_the_light() {
+    let scene = |floors: usize| {
+        let mut build = dark(Build::new());
+        for _ in 0..floors {
+            build.floor(0.0, 20.0);
+        }
+        let texture = Texture {
+            name: "grey".into(),
+            width: 1,
+            height: 1,
+            rgba: vec![128, 128, 128, 255],
+            wrap: [Wrap::Clamp; 2],
+            nearest: false,
+        };
+        build.0.textures.push(texture);
+        build.0.materials[0].base_color_texture = Some(0);
+        cubes(&mut build, &[[0.0, 2.0, 0.0]]);
+        build.point_light(DVec3::new(0.5, 9.0, 0.2));
+        build.point_light(DVec3::new(-3.0, 6.0, 0.2));
+        build.point_light(DVec3::new(3.0, 6.0, 0.2));
+        build.0
+    };
+    let settings = seen_from(DVec3::new(0.0, 6.0, 9.0), DVec3::new(0.0, 0.5, 0.0), SIZE);
+    let mut stage = Stage::new();
+    let mut pictures = Vec::new();
+    for floors in [1, 2] {
+        let scene = scene(floors);
+        stage.set_scene(&scene);
+        let by = |stage: &mut Stage, settings: &Settings| stage.shoot(settings, &scene).image;
+        let mut drawn = Vec::new();
+        for technique in [Technique::ZFail, Technique::None] {
+            for (texturing, depth_bounds) in [(Texturing::EachLight, false), (Texturing::Once, true)] {
+                let lighting = Lighting { texturing, ..settings.lighting };
+                let mut settings = Settings { technique, lighting, ..settings.clone() };
+                settings.culling.depth_bounds = depth_bounds;
+                settings.lights.insert(1, LightEdit { shadows: Some(false), ..LightEdit::default() });
+                settings.lights.insert(2, LightEdit { range: Some(9.0), ..LightEdit::default() });
+                drawn.push(by(&mut stage, &settings));
+            }
+        }
+        pictures.push(drawn);
+    }
+    assert!(pictures[0] == pictures[1]);
+    assert!(pictures[0][0] != pictures[0][2], "there is a shadow");
 }

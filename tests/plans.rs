@@ -11,11 +11,11 @@ use common::{Build, cube, seen_from, square};
 use glam::DVec3;
 use obscura::director::{StageError, stage};
 use obscura::frame::state::{Cull, Depth, NearPlane};
-use obscura::frame::stencil::StencilState;
+use obscura::frame::stencil::{StencilOp, StencilState};
 use obscura::frame::validate::validate;
 use obscura::frame::{Action, Capabilities, Draw, DrawSet, FramePlan, Method, Program};
 use obscura::scene::{AlphaMode, LightKind, Material, Scene};
-use obscura::settings::{CameraChoice, LightEdit, Settings, Show, Technique};
+use obscura::settings::{AreaMode, CameraChoice, LightEdit, Settings, Show, Technique};
 
 /// Two lights, one with a range; a solid, a mirrored solid, a sheet, a masked and a blended one.
 fn varied() -> Scene {
@@ -104,6 +104,48 @@ fn bounds_are_marked_once_and_before_they_are_asked_for() {
     assert!(spoiled(&|plan| plan.budget = Default::default()).contains("theirs"));
 }
 
+/// The first light has a size and three points, each with a bit of its own.
+fn with_own_bits() -> FramePlan {
+    let mut settings = Settings { size: [320, 180], ..Settings::default() };
+    settings.lights.insert(0, LightEdit { radius: Some(0.4), ..LightEdit::default() });
+    settings.lighting.area_samples = 3;
+    settings.lighting.area_mode = AreaMode::Bits;
+    plan(&varied(), &settings)
+}
+
+#[test]
+fn points_with_bits_of_their_own_plan_as_written() {
+    assert_text("own-bits", &with_own_bits());
+}
+
+#[test]
+fn validation_knows_whose_bit_is_whose() {
+    let plan = with_own_bits();
+    let spoiled = |wanted: &str, change: &dyn Fn(&mut Draw)| {
+        let mut plan = plan.clone();
+        let mut steps = plan.steps.iter_mut().filter(|step| step.label.contains(wanted));
+        match &mut steps.next().unwrap().action {
+            Action::Draw(draw) => change(draw),
+            Action::Clear(_) => panic!("no draw is called {wanted}"),
+        }
+        validate(&plan).unwrap_err().what
+    };
+    assert!(spoiled("light 2: add", &|draw| draw.light = Some(0)).contains("another light's own"));
+    assert!(spoiled("light 0: add", &|draw| draw.state.stencil.write_mask = 3).contains("marked in one of the bits"));
+    assert!(spoiled("light 0: add", &|draw| draw.state.stencil.front.pass = StencilOp::Keep).contains("marked in one"));
+    assert!(spoiled("light 0: add", &|draw| draw.state.stencil.read_mask = 0xff).contains("another light's own"));
+    assert!(spoiled("light 2: collapse", &|draw| draw.light = Some(0)).contains("not made"));
+    let mut shone = plan.clone();
+    let at = |label: &str| plan.steps.iter().position(|step| step.label.contains(label)).unwrap();
+    let step = shone.steps.remove(at("light 0: add"));
+    shone.steps.insert(at("light 2: collapse"), step);
+    assert_eq!(validate(&shone), Ok(()), "a point may shine as soon as its bit is there");
+    let mut early = plan.clone();
+    let step = early.steps.remove(at("light 2: add"));
+    early.steps.insert(at("light 2: collapse") - 1, step);
+    assert!(validate(&early).unwrap_err().what.contains("took light"), "{:?}", validate(&early));
+}
+
 #[test]
 fn the_eye_in_three_shadows_starts_from_three() {
     let mut build = Build::new();
@@ -131,7 +173,9 @@ fn a_light_that_is_off_costs_nothing_and_one_without_shadows_no_volumes() {
     assert!(plan.volumes.is_empty());
     assert!(plan.draws().all(|(_, draw)| draw.light != Some(0)));
     let lit: Vec<_> = plan.draws().filter(|(_, draw)| draw.program == Program::Lit).collect();
-    assert!(!lit.is_empty() && lit.iter().all(|(_, draw)| !draw.state.stencil.tests()));
+    // No count is asked for: only the bit that the light marks.
+    let marks = |draw: &Draw| draw.state.stencil.read_mask == draw.state.stencil.write_mask;
+    assert!(!lit.is_empty() && lit.iter().all(|(_, draw)| marks(draw) && draw.state.stencil.write_mask.is_power_of_two()));
 }
 
 #[test]

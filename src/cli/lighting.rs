@@ -5,7 +5,7 @@ use clap::Args;
 use super::command_line::Line;
 use super::input::InputError;
 use super::{by_name, names};
-use crate::settings::{Accumulation, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
+use crate::settings::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
 
 /// What both the window and `render` understand of it.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -13,6 +13,8 @@ pub(super) struct LightingArguments {
     /// Points that each light with a size is counted as in a frame [default: 8]
     #[arg(long, value_name = "N")]
     area_samples: Option<u32>,
+    #[arg(long, value_name = "M", help = format!("Where the points of one light keep their shadows: {}", names(AreaMode::ALL.map(AreaMode::name))))]
+    area_mode: Option<String>,
     /// Which of those points of light K stencil, shadow and volumes look at, from 0
     #[arg(long, value_name = "J")]
     light_sample: Option<u32>,
@@ -32,6 +34,9 @@ impl LightingArguments {
     /// Changes `lighting` as the arguments say.
     pub fn apply(&self, lighting: &mut Lighting) -> Result<(), InputError> {
         lighting.area_samples = self.area_samples.unwrap_or(lighting.area_samples);
+        if let Some(name) = &self.area_mode {
+            lighting.area_mode = by_name("area mode", name, AreaMode::ALL, AreaMode::name)?;
+        }
         lighting.light_sample = self.light_sample.unwrap_or(lighting.light_sample);
         lighting.accumulate = self.accumulate.unwrap_or(lighting.accumulate);
         if let Some(name) = &self.accumulation {
@@ -47,7 +52,7 @@ impl LightingArguments {
 
 /// The options that give `lighting` again.
 pub(super) fn write(lighting: &Lighting, line: &mut Line) {
-    let Lighting { area_samples, light_sample, accumulate, accumulation, texturing, labels } = *lighting;
+    let Lighting { area_samples, area_mode, light_sample, accumulate, accumulation, texturing, labels } = *lighting;
     let default = Lighting::default();
     let mut number = |name, value: u32, default| {
         if value != default {
@@ -57,6 +62,9 @@ pub(super) fn write(lighting: &Lighting, line: &mut Line) {
     number("--area-samples", area_samples, default.area_samples);
     number("--light-sample", light_sample, default.light_sample);
     number("--accumulate", accumulate, default.accumulate);
+    if area_mode != default.area_mode {
+        line.option("--area-mode", area_mode.name());
+    }
     if accumulation != default.accumulation {
         line.option("--accumulation", accumulation.name());
     }

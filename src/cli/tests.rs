@@ -10,8 +10,8 @@ use proptest::prelude::*;
 use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
 use crate::settings::{
-    Accumulation, Counting, Culling, LightBounds, Lighting, MAX_AREA_SAMPLES, MAX_COUNT_BITS, MAX_FRAMES, Overflow, SlideChoice,
-    Texturing,
+    Accumulation, AreaMode, Counting, Culling, LightBounds, Lighting, MAX_AREA_SAMPLES, MAX_COUNT_BITS, MAX_FRAMES, Overflow,
+    SlideChoice, Texturing,
 };
 
 fn command(line: &str) -> Result<Command, InputError> {
@@ -48,7 +48,7 @@ fn every_argument_reaches_its_setting() {
         "obscura render fox.glb --out a.png --technique z-pass --count-bits 3 --overflow naive --show stencil --failure saturating --light 2 --size 64x32 --samples 4 \
          --eye -1,2.5,3e2 --target 0,0,-1 --fov 33.5 --far 7.5 --time 1.25 --animation 3 --floor --exposure -1.5 \
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
-         --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --light-sample 3 --accumulate 256 \
+         --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --area-mode bits --light-sample 3 --accumulate 256 \
          --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on \
          --light-edit 1:on=true --adapter llvm --shaders wgsl",
     );
@@ -82,6 +82,7 @@ fn every_argument_reaches_its_setting() {
         lights: BTreeMap::from([(1, edit)]),
         lighting: Lighting {
             area_samples: 16,
+            area_mode: AreaMode::Bits,
             light_sample: 3,
             accumulate: 256,
             accumulation: Accumulation::EightBit,
@@ -343,14 +344,16 @@ fn any_settings() -> impl Strategy<Value = Settings> {
     );
     let lighting = (
         1..=MAX_AREA_SAMPLES,
+        prop::sample::select(&AreaMode::ALL[..]),
         1..=MAX_FRAMES,
         prop::sample::select(&Accumulation::ALL[..]),
         prop::sample::select(&Texturing::ALL[..]),
         any::<bool>(),
     )
-        .prop_flat_map(|(area_samples, accumulate, accumulation, texturing, labels)| {
+        .prop_flat_map(|(area_samples, area_mode, accumulate, accumulation, texturing, labels)| {
             (0..area_samples).prop_map(move |light_sample| Lighting {
                 area_samples,
+                area_mode,
                 light_sample,
                 accumulate,
                 accumulation,

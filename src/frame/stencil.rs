@@ -10,6 +10,8 @@
 //!         V [shadow count ]      V: shadowed by a batch before; modulo 128
 //!         B [shadow count ]      B: beyond the light's depth bounds; modulo 128
 //!         B V [shadow count ]    both; modulo 64
+//!         h g f e d c b a        a bit for each of eight points of a light with a size
+//!         d c b a [ count ]      for each of four, that count in the low bits one after the other
 //! ```
 //!
 //! All of them are zero where the light shines, so that one comparison with zero asks for all.
@@ -33,6 +35,9 @@ pub struct BitBudget {
     /// The highest bit, or none: the pixel's surface lies beyond the light's bounds, where nothing is
     /// counted ([`crate::techniques::depth_bounds`]).
     pub beyond_mask: u8,
+    /// Bits that single points of a light with a size have for themselves ([`crate::techniques::own_bits`]): all
+    /// in this frame; or the verdict bit alone, where it is one point's own.
+    pub points_mask: u8,
     /// Whether the light has bounds that are marked there; others leave the bit as it is.
     pub bounded: bool,
 }
@@ -58,6 +63,7 @@ impl BitBudget {
                 }),
             verdict_mask: 0,
             beyond_mask: 0,
+            points_mask: 0,
             bounded: false,
         }
     }
@@ -81,21 +87,40 @@ impl BitBudget {
         if self.bounded { self.beyond_mask } else { 0 }
     }
 
-    /// The largest count that the field tells from all smaller ones.
+    /// For one point of a light: it counts in the low `count_bits`, which it shares, and its verdict is its `own` bit. Where
+    /// there are none to count in, the own bit is turned over instead.
+    #[must_use]
+    pub const fn of_point(count_bits: u32, own: u8) -> Self {
+        let count_mask = ((1_u32 << count_bits) - 1) as u8;
+        Self { count_mask, verdict_mask: own, beyond_mask: 0, points_mask: own, bounded: false }
+    }
+
+    /// Whether the verdict bit is one point's own: all of its count ends up there.
+    #[must_use]
+    pub const fn is_points(self) -> bool {
+        self.points_mask != 0 && self.points_mask == self.verdict_mask
+    }
+
+    /// The largest count that the field tells from all smaller ones; a bit that is turned over tells one
+    /// from none.
     #[must_use]
     pub const fn largest(self) -> u32 {
-        self.count_mask as u32
+        if self.count_mask == 0 { 1 } else { self.count_mask as u32 }
     }
 
     /// What counting may ever write in a frame of this budget: with batches or without.
     #[must_use]
     pub const fn reserved(self) -> u8 {
-        self.shadow_mask() | self.batched().shadow_mask()
+        self.shadow_mask() | self.batched().shadow_mask() | self.points_mask
     }
 
-    /// All that is zero where the light shines: the field, the verdict bit, and the bounds'.
+    /// All that is zero where the light shines: the field, the verdict bit, and the bounds'; or a point's own
+    /// bit.
     #[must_use]
     pub const fn shadow_mask(self) -> u8 {
+        if self.is_points() {
+            return self.verdict_mask;
+        }
         self.count_mask | self.verdict_mask | self.beyond()
     }
 
@@ -105,9 +130,12 @@ impl BitBudget {
     }
 
     /// The same with a verdict bit: the bit above the field, or the field's own highest where there
-    /// is none above it.
+    /// is none above it. A point's own bit stays what it is.
     #[must_use]
     pub const fn batched(self) -> Self {
+        if self.is_points() {
+            return self;
+        }
         let count_mask = self.count_mask & if self.beyond_mask == 0 { 0x7f } else { 0x3f };
         Self { count_mask, verdict_mask: count_mask + 1, ..self }
     }
@@ -306,6 +334,38 @@ impl StencilState {
         Self::replace(budget.count_mask)
     }
 
+    /// The verdict bit becomes the reference's, whatever it was.
+    #[must_use]
+    pub const fn set_verdict(budget: BitBudget) -> Self {
+        Self::replace(budget.verdict_mask)
+    }
+
+    /// The same faces by the same tests, but each that counts turns `bit` over instead: the lowest bit of what
+    /// would be counted.
+    #[must_use]
+    pub fn turning_over(self, bit: u8) -> Self {
+        if !self.writes_anything() {
+            return self;
+        }
+        let turns = |op: StencilOp| if op == Keep { Keep } else { StencilOp::Invert };
+        let face = |face: StencilFace| StencilFace {
+            fail: turns(face.fail),
+            depth_fail: turns(face.depth_fail),
+            pass: turns(face.pass),
+            ..face
+        };
+        Self { front: face(self.front), back: face(self.back), write_mask: bit, ..self }
+    }
+
+    /// Passes where the light shines, and marks the pixel as shadowed: a second surface in the same place
+    /// does not take the light again (K 6.4).
+    #[must_use]
+    pub const fn light_once(budget: BitBudget) -> Self {
+        let face = StencilFace { pass: StencilOp::Invert, ..StencilFace::test(Compare::Equal) };
+        let bit = if budget.is_points() { budget.verdict_mask } else { budget.count_mask & 1 };
+        Self { front: face, back: face, read_mask: budget.shadow_mask(), write_mask: bit }
+    }
+
     /// One bit of the field becomes the reference's, whatever it was.
     #[must_use]
     pub const fn set_bit(budget: BitBudget, bit: u32) -> Self {
@@ -337,8 +397,12 @@ impl StencilState {
     /// Whether any operation changes stored bits.
     #[must_use]
     pub fn writes(&self) -> bool {
+        self.write_mask != 0 && self.writes_anything()
+    }
+
+    fn writes_anything(&self) -> bool {
         let face = |f: &StencilFace| f.fail != Keep || f.depth_fail != Keep || f.pass != Keep;
-        self.write_mask != 0 && (face(&self.front) || face(&self.back))
+        face(&self.front) || face(&self.back)
     }
 
     /// Whether the stored bits decide anything.

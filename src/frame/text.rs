@@ -23,6 +23,9 @@ impl Display for FramePlan {
         if self.budget.beyond_mask != 0 {
             writeln!(f, "stencil: beyond the light's bounds {:08b}", self.budget.beyond_mask)?;
         }
+        if self.budget.points_mask != 0 {
+            writeln!(f, "stencil: points' own bits {:08b}", self.budget.points_mask)?;
+        }
         for view in &self.views {
             writeln!(f, "view {}: front {:?}", view.name, view.winding)?;
         }

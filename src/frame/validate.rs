@@ -1,12 +1,14 @@
 //! Checks a plan without a GPU. A fault here is a bug in the director or a technique, caught where
 //! it can be read instead of where it can only be seen.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 use thiserror::Error;
 
 use super::plan::{FramePlan, Method};
 use super::state::{Blend, Compare, Cull, Depth, NearPlane, State};
-use super::stencil::{StencilOp, StencilState};
+use super::stencil::{StencilFace, StencilOp, StencilState};
 use super::step::{Action, Draw, DrawSet, Part, Program, Target};
 
 /// A rule that a plan may break on purpose, where it shows what comes of it: see
@@ -51,6 +53,8 @@ pub fn validate(plan: &FramePlan) -> Result<(), Fault> {
                 state.stencil_set |= clear.stencil.is_some();
                 if clear.stencil.is_some() {
                     state.bounded = None;
+                    state.owned.clear();
+                    state.shone = 0;
                     state.counting = false;
                     state.counted = None;
                 }
@@ -82,6 +86,10 @@ struct Progress {
     output_begun: bool,
     /// The picture is drawn directly, under the scene's depth and stencil.
     direct: bool,
+    /// Which single bits belong to which light, or to what is added without one, since the stencil was cleared.
+    owned: BTreeMap<u8, Option<usize>>,
+    /// Bits that surfaces were marked in when they took light.
+    shone: u8,
     /// Whose bounds are marked in the stencil, since it was cleared.
     bounded: Option<usize>,
     /// Whose volumes the stencil counts, since it was cleared.
@@ -151,6 +159,16 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
     {
         return Err("it asks for bounds that were not marked");
     }
+    let others = |(bit, of): (&u8, &Option<usize>)| stencil.read_mask & bit != 0 && *of != draw.light;
+    if stencil.tests() && draw.light.is_some() && state.owned.iter().any(others) {
+        return Err("it asks for a bit that is another light's own");
+    }
+    if stencil.writes() && matches!(draw.set, DrawSet::Surfaces(_)) {
+        return check_once(draw, state);
+    }
+    if stencil.writes() && state.shone & (stencil.write_mask | stencil.read_mask) != 0 {
+        return Err("it counts in bits that surfaces which took light are marked in");
+    }
     if draw.target == Target::Counts {
         return check_wide(plan, draw, state);
     }
@@ -174,10 +192,16 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
     if let DrawSet::Volumes(parts) = &draw.set {
         if stencil.writes() {
             state.counting = true;
-            if state.counted.is_some_and(|light| Some(light) != draw.light) {
-                return Err("it counts on top of another light's count");
+            if turns_own_bit(plan, stencil) {
+                if *state.owned.entry(stencil.write_mask).or_insert(draw.light) != draw.light {
+                    return Err("it turns over a bit that is another light's own");
+                }
+            } else {
+                if state.counted.is_some_and(|light| Some(light) != draw.light) {
+                    return Err("it counts on top of another light's count");
+                }
+                state.counted = draw.light;
             }
-            state.counted = draw.light;
         }
         for part in parts {
             let volume = plan.volumes.get(part.volume).ok_or("it draws a volume that is not planned")?;
@@ -260,6 +284,45 @@ fn check_full_screen(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Res
         return Err("it counts on top of another light's count");
     }
     state.counted = draw.light;
+    let own = draw.stencil_reference;
+    let verdict = face.compare == Compare::NotEqual || matches!(draw.program, Program::WideVerdict | Program::WideVerdictEach);
+    if verdict && own.is_power_of_two() && own & plan.budget.points_mask & stencil.write_mask != 0 {
+        // A verdict in a point's own bit: the field is free for the next point.
+        if state.owned.insert(own, draw.light).is_some_and(|of| of != draw.light) {
+            return Err("it overwrites a bit that is another light's own");
+        }
+        state.counted = None;
+    }
+    Ok(())
+}
+
+/// Whether volumes turn over a single bit that belongs to a point.
+fn turns_own_bit(plan: &FramePlan, stencil: &StencilState) -> bool {
+    let faces = [stencil.front, stencil.back];
+    let mut ops = faces.iter().flat_map(|face| [face.fail, face.depth_fail, face.pass]);
+    stencil.write_mask.is_power_of_two()
+        && stencil.write_mask & plan.budget.points_mask != 0
+        && ops.all(|op| matches!(op, StencilOp::Keep | StencilOp::Invert))
+}
+
+/// Surfaces that take light where bits are zero, and are marked in one of them.
+fn check_once(draw: &Draw, state: &mut Progress) -> Result<(), &'static str> {
+    let stencil = &draw.state.stencil;
+    let bit = stencil.write_mask;
+    let [front, back] = [stencil.front, stencil.back];
+    let once =
+        StencilFace { compare: Compare::Equal, fail: StencilOp::Keep, depth_fail: StencilOp::Keep, pass: StencilOp::Invert };
+    if !bit.is_power_of_two() || stencil.read_mask & bit == 0 || draw.stencil_reference != 0 || [front, back] != [once; 2] {
+        return Err("surfaces that take light are marked in one of the bits that they ask for");
+    }
+    match state.owned.get(&bit) {
+        Some(of) if *of == draw.light => {}
+        Some(_) => return Err("it shines by a bit that is another light's own"),
+        None if state.counted.is_none() && stencil.read_mask == bit => _ = state.owned.insert(bit, draw.light),
+        None if state.counted == draw.light && draw.light.is_some() => {}
+        None => return Err("it shines by another light's count"),
+    }
+    state.shone |= bit;
     Ok(())
 }
 

@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 pub struct Lighting {
     /// Points that each light with an extent is counted as in one frame (K 6.4): 1 to [`MAX_AREA_SAMPLES`].
     pub area_samples: u32,
+    /// Where the points of one light keep their shadows until they shine.
+    pub area_mode: AreaMode,
     /// Which of those points `stencil`, `shadow` and `volumes` look at, from 0.
     pub light_sample: u32,
     /// Frames whose mean is shown, each with other points of the area lights and, but for the first, a
@@ -32,11 +34,46 @@ impl Default for Lighting {
         Self {
             // As many as K's figure 15 has.
             area_samples: 8,
+            area_mode: AreaMode::default(),
             light_sample: 0,
             accumulate: 1,
             accumulation: Accumulation::default(),
             texturing: Texturing::default(),
             labels: false,
+        }
+    }
+}
+
+/// Where the points of a light with a size keep their shadows until they shine.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AreaMode {
+    /// One after the other in the whole stencil, as lights of their own.
+    #[default]
+    Points,
+    /// Together, each in a bit of its own (K 6.4, [`crate::techniques::own_bits`]).
+    Bits,
+}
+
+impl AreaMode {
+    /// Every one, in the order people see them.
+    pub const ALL: [Self; 2] = [Self::Points, Self::Bits];
+
+    /// The name on the command line and in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Points => "points",
+            Self::Bits => "bits",
+        }
+    }
+
+    /// One sentence for help and panel.
+    #[must_use]
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Points => "each point counts in the whole stencil and shines before the next",
+            Self::Bits => "each point has a stencil bit of its own; all are counted, then all shine (Kilgard 6.4)",
         }
     }
 }

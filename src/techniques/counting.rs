@@ -230,13 +230,20 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
         let base = members.iter().map(|&volume| volumes[volume].holds_eye).fold(0u8, |sum, holds_eye| {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the count is modulo the field")]
             sum.wrapping_add(holds_eye as u8)
-        }) & budget.count_mask;
+        });
+        let base = match budget.count_mask {
+            0 => (base & 1) * budget.verdict_mask,
+            field => base & field,
+        };
         if batch == 0 {
             count.base = base | budget.beyond();
         } else {
             count.steps.extend(between_batches(batch, base, budget, ask));
         }
         count.steps.extend(steps(row, &members, volumes, budget, ask));
+    }
+    if row.technique != Technique::Wide && budget.is_points() && budget.count_mask != 0 {
+        count.steps.push(collapse(format!("light {light}: collapse into its bit"), budget, ask));
     }
     if row.technique == Technique::Wide {
         count.steps.insert(0, wide::begin(light));
@@ -277,14 +284,7 @@ fn steps(row: &Row, members: &[usize], volumes: &[VolumePlan], budget: BitBudget
 
 /// What a batch leaves becomes one bit, and the field starts anew.
 fn between_batches(batch: usize, base: u8, budget: BitBudget, ask: &Ask<'_>) -> Vec<Step> {
-    let collapse = full_screen(
-        format!("light {}: collapse batch {batch}", ask.light),
-        "A count that is not zero sets the verdict bit and becomes zero: the field is free for the next batch.",
-        Program::StencilOnly,
-        StencilState::collapse(budget),
-        budget.verdict_mask,
-        ask,
-    );
+    let collapse = collapse(format!("light {}: collapse batch {batch}", ask.light), budget, ask);
     let start = (base != 0).then(|| {
         full_screen(
             format!("light {}: start batch {} at {base}", ask.light, batch + 1),
@@ -296,6 +296,17 @@ fn between_batches(batch: usize, base: u8, budget: BitBudget, ask: &Ask<'_>) -> 
         )
     });
     [collapse].into_iter().chain(start).collect()
+}
+
+fn collapse(label: String, budget: BitBudget, ask: &Ask<'_>) -> Step {
+    full_screen(
+        label,
+        "A count that is not zero sets the verdict bit and becomes zero: the field is free for what comes next.",
+        Program::StencilOnly,
+        StencilState::collapse(budget),
+        budget.verdict_mask,
+        ask,
+    )
 }
 
 /// A step over all of the light's pixels that changes the stencil only.
@@ -386,6 +397,7 @@ impl Group {
             (Program::VolumeBacks, _) | (_, Cull::Front) => ", backs",
             _ => "",
         };
+        let stencil = (self.stencil)(budget);
         Step {
             label: format!("light {light}: {}{faces}{mirrored}", self.label),
             why: self.why.into(),
@@ -396,7 +408,8 @@ impl Group {
                 target: self.target,
                 state: State {
                     depth: self.depth,
-                    stencil: (self.stencil)(budget),
+                    // A point without bits to count in has one to turn over.
+                    stencil: if budget.count_mask == 0 { stencil.turning_over(budget.verdict_mask) } else { stencil },
                     color: self.color,
                     cull: self.cull,
                     winding,

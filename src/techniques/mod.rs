@@ -23,6 +23,7 @@ pub mod labels;
 mod none;
 mod one_sided;
 mod overflow;
+pub mod own_bits;
 mod parity;
 mod per_polygon;
 pub mod show;
@@ -64,6 +65,15 @@ pub struct Row {
     /// The states that its volumes' parts are counted with, in order; those of a technique that it
     /// falls back on among them.
     pub groups: &'static [&'static [Group]],
+}
+
+impl Row {
+    /// Whether a count that does not overflow is the right one: of exact techniques, and of ZP+, whose
+    /// cracks are another matter.
+    #[must_use]
+    pub fn counts_exactly(&self) -> bool {
+        self.exact || self.technique == Technique::ZPlus
+    }
 }
 
 /// Every technique, in the order of [`Technique::ALL`].

@@ -95,11 +95,12 @@ pub(super) fn decide(row: &Row, casters: &[&Caster<'_>], ask: &Ask) -> Decision 
     let number = casters.first().map_or(ask.light, |caster| caster.light.of);
     let bits = ask.budget.count_mask.count_ones();
     let too_many = format!("light {number}: up to {most} {TOO_MANY}, the count of {bits} bits tells {largest}");
-    if ask.overflow == Overflow::Naive || !row.exact {
+    if ask.overflow == Overflow::Naive || !row.counts_exactly() {
         let note = format!("{too_many}: a multiple of {} is taken for none (`show overflow` marks where)", largest + 1);
         return Decision { way: Way::Plain, note: Some(note) };
     }
-    let batch = ask.budget.batched().largest();
+    // What is turned over leaves nothing to collapse.
+    let batch = if ask.budget.count_mask == 0 { 0 } else { ask.budget.batched().largest() };
     let alone = bounds.iter().max().copied().unwrap_or(0);
     let by_wide = ask.samples == 1 || ask.capabilities.wide_four_samples;
     if alone <= batch && !(ask.values && by_wide) {

@@ -104,9 +104,10 @@ pub fn wireframe(instances: usize, scissor: [u32; 4]) -> Step {
     }
 }
 
-/// One light's count in false colour, with a legend.
+/// One light's count in false colour, with a legend; or, where `points_mask` is not zero, how many of these bits
+/// are set: of how many of its points the pixel is in the shadow.
 #[must_use]
-pub fn stencil_colors(budget: BitBudget, scissor: [u32; 4]) -> Step {
+pub fn stencil_colors(budget: BitBudget, points_mask: u8, scissor: [u32; 4]) -> Step {
     let mut step = full_screen(
         "stencil in false colour",
         "Reads the stencil and gives each count a colour; the legend names them.",
@@ -115,7 +116,7 @@ pub fn stencil_colors(budget: BitBudget, scissor: [u32; 4]) -> Step {
     );
     if let Action::Draw(draw) = &mut step.action {
         // Beyond the light's bounds nothing is counted.
-        draw.constant = [f32::from(budget.beyond()), 0.0, 0.0, 0.0];
+        draw.constant = [f32::from(budget.beyond()), f32::from(points_mask), 0.0, 0.0];
     }
     step
 }

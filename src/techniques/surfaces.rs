@@ -257,7 +257,7 @@ pub fn lit(
         constant: [0.0; 4],
         set: DrawSet::Surfaces(surfaces),
     };
-    let why = "Adds the light where no volume holds the surface: where the count is zero.";
+    let why = "Adds the light where no volume holds the surface, where the count is zero; and marks it there, lest another surface in the same place takes the light again.";
     let of_group = |group: &SurfaceGroup| {
         let surfaces: Vec<_> = group.surfaces.iter().copied().filter(|surface| reached[surface.instance]).collect();
         (!surfaces.is_empty()).then(|| step(format!("light {light}: add{}", group.words()), why, draw(group, surfaces)))
@@ -265,14 +265,20 @@ pub fn lit(
     groups.iter().filter_map(of_group).collect()
 }
 
+/// Whether some surfaces' textures are left for after all lights.
+#[must_use]
+pub fn textured_last(groups: &[SurfaceGroup]) -> bool {
+    groups.iter().any(|group| group.kind.textured_last)
+}
+
 /// The textures of surfaces whose light was added up without them (M section 8).
 #[must_use]
-pub fn textures(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
+pub fn textures(groups: &[SurfaceGroup], stencil: StencilState, scissor: [u32; 4]) -> Vec<Step> {
     let draw = |group: &SurfaceGroup| Draw {
         program: Program::Texture,
         look: Look::default(),
         target: Target::Scene,
-        state: group.again(Blend::Multiply, StencilState::IGNORE),
+        state: group.again(Blend::Multiply, stencil),
         stencil_reference: 0,
         scissor,
         light: None,

@@ -125,6 +125,11 @@ pub(super) fn finish(ask: &Ask) -> Vec<Step> {
             .collect();
     }
     let label = format!("light {}: verdict of the wide count", ask.light);
+    if budget.is_points() {
+        let why = "Where the wide count is not zero the point's own bit is set; elsewhere it stays clear.";
+        let program = if ask.samples == 1 { Program::WideVerdict } else { Program::WideVerdictEach };
+        return vec![full_screen(label, why, program, StencilState::set_verdict(budget), budget.verdict_mask, ask)];
+    }
     let why = "Where the wide count is not zero the stencil's count becomes one; elsewhere it is zero.";
     let program = if ask.samples == 1 { Program::WideVerdict } else { Program::WideVerdictEach };
     vec![full_screen(label, why, program, StencilState::set_count(budget), 1, ask)]

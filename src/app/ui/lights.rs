@@ -5,7 +5,7 @@ use egui::{Color32, RichText, Ui};
 use super::style::{self, field, number, point, slider};
 use super::{Desk, Panel, View};
 use crate::scene::{Extent, Light, LightKind, PosedLight};
-use crate::settings::{LightEdit, MAX_AREA_SAMPLES, SlideChoice};
+use crate::settings::{AreaMode, LightEdit, MAX_AREA_SAMPLES, SlideChoice};
 
 /// All lights.
 pub fn lights(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_>) {
@@ -37,6 +37,15 @@ fn sizes(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
     let lighting = &mut desk.settings.lighting;
     field(ui, "Points a light", "Lights with a size are counted as so many points, each with shadow volumes of its own", |ui| {
         ui.add(slider(&mut lighting.area_samples, 1..=MAX_AREA_SAMPLES))
+    });
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Kept in").color(style::WEAK));
+        for (mode, words) in AreaMode::ALL.into_iter().zip(["The whole stencil", "A bit each"]) {
+            let response = ui.selectable_label(lighting.area_mode == mode, words);
+            if response.on_hover_text(format!("{}.", super::technique::capital(mode.about()))).clicked() {
+                lighting.area_mode = mode;
+            }
+        }
     });
     lighting.light_sample = lighting.light_sample.min(lighting.area_samples - 1);
     let of_one_light = desk.settings.show.looks_at_light();
