@@ -97,6 +97,10 @@ fn z_fail_and_exact_z_pass_hold_the_same_stencil_on_200_random_views() {
     let mut cracked = Vec::new();
     for row in stock::TABLE {
         let scene = stock::build(row.name).unwrap().unwrap();
+        // The rooms with mirrors are held against rays; here they would add nothing but time.
+        if !scene.mirrors.is_empty() {
+            continue;
+        }
         stage.set_scene(&scene);
         for view in 0..VIEWS_PER_SCENE {
             let settings = self::view(&scene, view, &mut random);
@@ -190,6 +194,10 @@ fn auto_and_z_fail_with_everything_culled_draw_what_z_fail_draws_without() {
     let (mut caps_left_out, mut volumes, mut before, mut after) = (0, 0, 0, 0);
     for row in stock::TABLE {
         let scene = stock::build(row.name).unwrap().unwrap();
+        // The rooms with mirrors are held against rays; here they would add nothing but time.
+        if !scene.mirrors.is_empty() {
+            continue;
+        }
         stage.set_scene(&scene);
         for view in 0..CULLED_VIEWS_PER_SCENE {
             let settings = self::view(&scene, view, &mut random);

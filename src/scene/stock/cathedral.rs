@@ -3,11 +3,11 @@
 //! flame swings along the nave and drives the piers' shadows before it; a red and a green lamp wander in the aisles,
 //! behind the piers, and stripe the pavement.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::compose::{CATHEDRAL, Composer, FURNITURE, PILGRIM, STRIDE, at, circle};
+use super::compose::{CATHEDRAL, Composer, FURNITURE, PILGRIM, STRIDE, at, there_and_back};
 use crate::scene::gltf::ImportError;
 use crate::scene::{LightKind, Scene};
 
@@ -93,23 +93,6 @@ fn east(c: &mut Composer) {
         c.put(&format!("east window {i}"), tall, at(x, 2.5, wall + 0.02));
         c.put(&format!("east window frame {i}"), frame, at(x, 2.5, wall));
     }
-}
-
-/// A closed way of this length about the z axis: two straights `radius` to both sides, two half circles.
-fn there_and_back(middle: DVec3, radius: f64, length: f64, turns: f64) -> DVec3 {
-    let straight = (length - TAU * radius) / 2.0;
-    let (half, arc) = (straight / 2.0, PI * radius);
-    let s = turns.rem_euclid(1.0) * length;
-    middle
-        + if s < straight {
-            DVec3::new(radius, 0.0, half - s)
-        } else if s < straight + arc {
-            DVec3::new(0.0, 0.0, -half) + circle(DVec3::ZERO, radius, (s - straight) / arc * 0.5)
-        } else if s < 2.0 * straight + arc {
-            DVec3::new(-radius, 0.0, s - straight - arc - half)
-        } else {
-            DVec3::new(0.0, 0.0, half) + circle(DVec3::ZERO, radius, (s - 2.0 * straight - arc) / arc * 0.5 + 0.5)
-        }
 }
 
 fn pilgrims(c: &mut Composer) {

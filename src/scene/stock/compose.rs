@@ -5,15 +5,15 @@
 //! once. A name that no model has becomes a warning of the scene; a test holds every stock scene to
 //! have none.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use glam::{DMat3, DQuat, DVec3, Vec3, Vec4};
+use glam::{DMat3, DQuat, DVec3, Vec2, Vec3, Vec4};
 
 use crate::frame::camera::DEFAULT_NEAR;
 use crate::scene::gltf::{ImportError, load_embedded};
 use crate::scene::{
     Animation, AnimationChoice, BuiltInSlide, Camera, Channel, Environment, Extent, Interpolation, Light, LightKind, Material,
-    Mesh, MeshParts, Node, Primitive, Property, Scene, Transform,
+    Mesh, MeshParts, Node, Primitive, Property, Reflective, Scene, Transform,
 };
 
 macro_rules! model {
@@ -214,13 +214,49 @@ impl Composer {
             primitives: vec![primitive],
             ..MeshParts::default()
         };
+        let base_color = Vec4::new(r, g, b, 1.0);
+        self.scene.materials.push(Material { name: name.into(), base_color, roughness, ..Material::default() });
+        self.meshed(parts)
+    }
+
+    fn meshed(&mut self, parts: MeshParts) -> Prop {
+        let name = parts.name.clone();
         match Mesh::new(parts) {
             Ok(mesh) => self.scene.meshes.push(mesh),
             Err(error) => self.scene.warnings.push(format!("the mesh {name:?} cannot be made: {error}")),
         }
-        let base_color = Vec4::new(r, g, b, 1.0);
-        self.scene.materials.push(Material { name: name.into(), base_color, roughness, ..Material::default() });
         Prop { mesh: self.scene.meshes.len().saturating_sub(1), casts_shadow: true }
+    }
+
+    /// A rectangle of a floor in the material of another, as large as its half sides say, the texture repeated
+    /// every so many metres; it looks up and casts no shadow.
+    pub(super) fn laid(&mut self, floor: Prop, half: [f32; 2], repeat: f32) -> Prop {
+        let material = self.scene.meshes.get(floor.mesh).and_then(|mesh| mesh.primitives.first()).map(|run| run.material);
+        let corners = [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|corner| Vec2::from(corner) * Vec2::from(half));
+        let prop = self.meshed(MeshParts {
+            name: "floor".into(),
+            positions: corners.iter().map(|corner| Vec3::new(corner.x, 0.0, corner.y)).collect(),
+            uvs: Some(corners.iter().map(|corner| *corner / repeat).collect()),
+            indices: vec![0, 1, 2, 0, 2, 3],
+            primitives: vec![Primitive {
+                first_index: 0,
+                index_count: 6,
+                material: material.unwrap_or_default(),
+                casts_shadow: true,
+            }],
+            ..MeshParts::default()
+        });
+        Self::shadeless(prop)
+    }
+
+    /// The same shape as a mirror.
+    pub(super) fn reflecting(&mut self, prop: Prop, look: Reflective) -> Prop {
+        self.remade(prop, |material| material.mirror = Some(look))
+    }
+
+    /// The same, casting no shadow: walls and floors with nothing behind them.
+    pub(super) fn shadeless(prop: Prop) -> Prop {
+        Prop { casts_shadow: false, ..prop }
     }
 
     /// The same shape drawn from both sides: a sheet.
@@ -453,4 +489,21 @@ impl Library {
 pub(super) fn circle(centre: DVec3, radius: f64, turns: f64) -> DVec3 {
     let (sin, cos) = (turns * TAU).sin_cos();
     centre + DVec3::new(cos * radius, 0.0, -sin * radius)
+}
+
+/// A closed way of this length about the z axis: two straights `radius` to both sides, two half circles.
+pub(super) fn there_and_back(middle: DVec3, radius: f64, length: f64, turns: f64) -> DVec3 {
+    let straight = (length - TAU * radius) / 2.0;
+    let (half, arc) = (straight / 2.0, PI * radius);
+    let s = turns.rem_euclid(1.0) * length;
+    middle
+        + if s < straight {
+            DVec3::new(radius, 0.0, half - s)
+        } else if s < straight + arc {
+            DVec3::new(0.0, 0.0, -half) + circle(DVec3::ZERO, radius, (s - straight) / arc * 0.5)
+        } else if s < 2.0 * straight + arc {
+            DVec3::new(-radius, 0.0, s - straight - arc - half)
+        } else {
+            DVec3::new(0.0, 0.0, half) + circle(DVec3::ZERO, radius, (s - 2.0 * straight - arc) / arc * 0.5 + 0.5)
+        }
 }

@@ -3,6 +3,7 @@
 
 use glam::Vec3;
 
+use super::carpentry::cuboid;
 use super::compose::{ARCHITECTURE, Composer, FLOORS, FURNITURE, SOLIDS, WALKER, at};
 use crate::scene::gltf::ImportError;
 use crate::scene::{LightKind, Scene};
@@ -119,13 +120,4 @@ pub(super) fn awning() -> Result<Scene, ImportError> {
     c.camera("under the awning", [0.45, 1.8, 2.7], [0.0, 0.2, -0.1], 46.0);
     c.camera("above", [-2.6, 5.2, 5.6], [0.0, 1.6, 0.0], 44.0);
     Ok(c.finish())
-}
-
-/// Appends a box, outward.
-fn cuboid(least: Vec3, most: Vec3, positions: &mut Vec<Vec3>, triangles: &mut Vec<[u32; 3]>) {
-    let first = positions.len() as u32;
-    let corner = |i: usize| Vec3::from_array(std::array::from_fn(|axis| [least, most][i >> axis & 1][axis]));
-    positions.extend((0..8).map(corner));
-    let quads: [[u32; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-    triangles.extend(quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).map(|t| t.map(|i| i + first)));
 }

@@ -1,17 +1,24 @@
 //! The built-in scenes, composed from the models in `assets/`, one file each.
 
+mod barbershop;
+mod carpentry;
 mod cathedral;
 mod compose;
+mod corridor;
 mod courtyard;
 mod cubes;
 mod demonstrations;
 mod eye_in_shadow;
+mod figure3;
+mod gallery;
 mod grid;
 mod hello2rts;
+mod kaleidoscope;
 mod projector;
 mod shadowfun;
 mod stairs;
 mod teapots;
+mod terraces;
 #[cfg(test)]
 mod tests;
 
@@ -79,6 +86,36 @@ pub static TABLE: &[StockScene] = &[
         name: "hello2rts",
         about: "solid letters over letters and balls, two lights: hello to real-time shadows (Kilgard 1999, figure 12)",
         build: hello2rts::build,
+    },
+    StockScene {
+        name: "gallery",
+        about: "an art room: two great mirrors face each other over a polished floor, a round one hangs between paintings; three coloured lights, sculptures, a visitor",
+        build: gallery::build,
+    },
+    StockScene {
+        name: "barbershop",
+        about: "mirrors on both long walls show each other, the chairs and the barber without end (Kilgard 1999, figure 4)",
+        build: barbershop::build,
+    },
+    StockScene {
+        name: "corridor",
+        about: "a hallway round two corners, a mirror at 45 degrees in each: a periscope to peer down it unseen (Kilgard 1999, section 3)",
+        build: corridor::build,
+    },
+    StockScene {
+        name: "terraces",
+        about: "a marble floor on two levels: each tier has a reflection of its own (Kilgard 1999, section 3)",
+        build: terraces::build,
+    },
+    StockScene {
+        name: "figure3",
+        about: "a dinosaur on a small shining table: without a stencil its reflection sticks out beyond the edge (Kilgard 1999, figure 3)",
+        build: figure3::build,
+    },
+    StockScene {
+        name: "kaleidoscope",
+        about: "the eye inside a triangle of three mirrors, bright toys turning at its end",
+        build: kaleidoscope::build,
     },
 ];
 
