@@ -549,12 +549,12 @@ fn a_view_is_verified_and_says_what_was_found_until_it_changes() {
     click(&mut harness, "Verify this view");
     assert!(harness.state().actions.contains(&Action::Verify));
     let pixels = vec![WrongPixel { x: 3, y: 4, how: Wrong::Lit }];
-    let found = Comparison { decided: 900, lit: 500, shadow: 300, edges: 77, grazing: 5, pixels: pixels.clone() };
+    let found = Comparison { decided: 900, lit: 500, shadow: 300, edges: 77, pixels: pixels.clone() };
     let settings = harness.state().settings.clone();
     harness.state_mut().verification =
         Verification::found(Finding { settings, lights: vec![("lamp".into(), found)], wrong: pixels });
     harness.run_steps(2);
-    let words = "lamp: 900 decided, 77 edges, 5 grazing, 1 wrong";
+    let words = "lamp: 900 decided, 77 edges, 1 wrong";
     assert!(harness.query_by_label_contains(words).is_some());
     harness.state_mut().settings.fov = Some(33.0);
     harness.run_steps(2);

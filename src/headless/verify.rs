@@ -70,8 +70,6 @@ pub struct LightRow {
     pub shadow: usize,
     /// Pixels that rays do not agree on.
     pub edges: usize,
-    /// Pixels that the depth buffer's resolution decides.
-    pub grazing: usize,
     /// Decided pixels that are drawn otherwise.
     pub wrong: usize,
 }
@@ -329,7 +327,6 @@ impl Report {
                 lit: 0,
                 shadow: 0,
                 edges: 0,
-                grazing: 0,
                 wrong: 0,
             });
             row.views += 1;
@@ -337,7 +334,6 @@ impl Report {
             row.lit += found.lit;
             row.shadow += found.shadow;
             row.edges += found.edges;
-            row.grazing += found.grazing;
             row.wrong += found.wrong();
             let kept = self.wrong_views.iter().filter(|view| view.exact == exact).count();
             if let Some(&first) = found.pixels.first()
@@ -367,8 +363,8 @@ impl Display for Report {
         }
         writeln!(
             out,
-            "{:<16} {:<26} {:>11} {:>11} {:>11} {:>9} {:>9} {:>9}",
-            "technique", "light", "lit", "shadow", "decided", "edges", "grazing", "wrong"
+            "{:<16} {:<26} {:>11} {:>11} {:>11} {:>9} {:>9}",
+            "technique", "light", "lit", "shadow", "decided", "edges", "wrong"
         )?;
         for row in &self.lights {
             let name: String = format!("{} {}", row.light, row.name).chars().take(26).collect();
@@ -379,13 +375,12 @@ impl Display for Report {
             };
             writeln!(
                 out,
-                "{:<16} {name:<26} {:>11} {:>11} {:>11} {:>9} {:>9} {:>9}{verdict}",
+                "{:<16} {name:<26} {:>11} {:>11} {:>11} {:>9} {:>9}{verdict}",
                 row.technique.name(),
                 row.lit,
                 row.shadow,
                 row.decided,
                 row.edges,
-                row.grazing,
                 row.wrong
             )?;
         }

@@ -5,11 +5,8 @@ use image::{Rgba, RgbaImage};
 /// What one pixel of `show shadow` must be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// Undecided: rays through the pixel disagree, or the light grazes what is seen.
+    /// Undecided: rays through the pixel disagree.
     Edge,
-    /// Rays agree, but the light grazes the surface so closely that the depth buffer's last bits decide:
-    /// were it a little nearer or farther, the answer would be another one.
-    Grazing,
     /// No surface: grey.
     Nothing,
     /// A surface beyond the light's range: grey.
@@ -25,7 +22,7 @@ impl Verdict {
     #[must_use]
     pub const fn value(self) -> Option<u8> {
         match self {
-            Self::Edge | Self::Grazing => None,
+            Self::Edge => None,
             Self::Nothing | Self::OutOfRange => Some(128),
             Self::Lit => Some(255),
             Self::Shadow => Some(0),
@@ -74,8 +71,6 @@ pub struct Comparison {
     pub shadow: usize,
     /// Pixels on which they do not agree.
     pub edges: usize,
-    /// Pixels on which they agree, but the depth buffer's resolution decides.
-    pub grazing: usize,
     /// Decided pixels that are drawn otherwise, row by row.
     pub pixels: Vec<WrongPixel>,
 }
@@ -116,8 +111,7 @@ impl Verdicts {
         let mut comparison = Comparison::default();
         for (at, &verdict) in (0u32..).zip(&self.pixels) {
             let Some(value) = verdict.value() else {
-                comparison.edges += usize::from(verdict == Verdict::Edge);
-                comparison.grazing += usize::from(verdict == Verdict::Grazing);
+                comparison.edges += 1;
                 continue;
             };
             comparison.decided += 1;
@@ -139,7 +133,7 @@ impl Verdicts {
     }
 }
 
-/// Paints wrong pixels over a picture of the view, which is dimmed: edges and grazing light of any of `verdicts` faintly,
+/// Paints wrong pixels over a picture of the view, which is dimmed: edges of any of `verdicts` faintly,
 /// wrong pixels in [`Wrong::color`] with a pale frame around each, so that one alone is found.
 pub fn paint(picture: &mut RgbaImage, verdicts: &[Verdicts], wrong: &[WrongPixel]) {
     for pixel in picture.pixels_mut() {
@@ -204,7 +198,7 @@ mod tests {
     fn what_is_right_is_right_and_edges_may_be_anything() {
         for edge in [0, 77, 128, 255] {
             let comparison = verdicts().compare(&picture([255, 0, edge, 128, 128, 255]));
-            assert_eq!(comparison, Comparison { decided: 5, lit: 2, shadow: 1, edges: 1, grazing: 0, pixels: Vec::new() });
+            assert_eq!(comparison, Comparison { decided: 5, lit: 2, shadow: 1, edges: 1, pixels: Vec::new() });
         }
     }
 

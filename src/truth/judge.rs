@@ -11,30 +11,27 @@ use super::world::{Asked, Casts, Face, Seen, World};
 use crate::frame::Camera;
 use crate::scene::{LightKind, PosedLight};
 
-/// The places in a pixel where surfaces are looked for, pixels from its centre: the centre itself, the
-/// four a quarter pixel around it, and four so near that a rasteriser, which moves corners to the
-/// nearest 256th of a pixel, may take one for the other.
-const PLACES: [DVec2; 9] = [
+/// The places in a pixel where surfaces are looked for, pixels from its centre.
+const PLACES: [DVec2; 5] = [
     DVec2::ZERO,
     DVec2::new(-QUARTER, -QUARTER),
     DVec2::new(QUARTER, -QUARTER),
     DVec2::new(-QUARTER, QUARTER),
     DVec2::new(QUARTER, QUARTER),
-    DVec2::new(-SNAP, -SNAP),
-    DVec2::new(SNAP, -SNAP),
-    DVec2::new(-SNAP, SNAP),
-    DVec2::new(SNAP, SNAP),
 ];
 const QUARTER: f64 = 0.25;
-const SNAP: f64 = 1.0 / 128.0;
 
-/// The first of the places that are so near.
-const FIRST_SNAPPED: usize = 5;
+/// Where the centre's ray to the light begins when it is moved along the surface, to the right and
+/// down, in [`NUDGE`]s.
+const SIDEWAYS: [DVec2; 4] = [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y];
+
+/// Points of a surface: what is met at each place, and the centre's moved sideways.
+const POINTS: usize = PLACES.len() + SIDEWAYS.len();
 
 /// Where the light is moved to, in [`NUDGE`]s.
 const NUDGES: [DVec3; 4] = [DVec3::ONE, DVec3::NEG_ONE, DVec3::new(1.0, -1.0, 1.0), DVec3::new(-1.0, 1.0, -1.0)];
 
-/// How far the light is moved, of the scene's size (or of 1, for a direction).
+/// How far either end of the ray to the light is moved, of the scene's size (or of 1, for a direction).
 const NUDGE: f64 = 1e-6;
 
 /// How far before a surface the ray to the light starts, of its depth.
@@ -43,9 +40,9 @@ const HAIR: f64 = 1e-7;
 /// What a box is made larger by, of the world's size: much more than double precision is wrong by.
 const SLACK: f64 = 1e-9;
 
-/// Rays between a pixel's points and a light: from each place, from the centre's surface moved nearer
-/// and farther, and from the centre to where the light is moved.
-const RAYS: usize = PLACES.len() + 2 + NUDGES.len();
+/// Rays between a pixel's points and a light: from each of them, from the centre's moved nearer and
+/// farther, and from the centre to where the light is moved.
+const RAYS: usize = POINTS + 2 + NUDGES.len();
 
 /// How many volumes each ray crosses.
 type Counts = [u8; RAYS];
@@ -95,7 +92,7 @@ impl World {
     /// Whether a point is in shadow of `light`; on a border it may say either.
     #[must_use]
     pub fn shades(&self, point: DVec3, light: &PosedLight) -> bool {
-        let surface = Surface { points: [point; PLACES.len()], displaced: [point; 2], faces: [u32::MAX; PLACES.len()] };
+        let surface = Surface { points: [point; POINTS], displaced: [point; 2], faces: [u32::MAX; PLACES.len()] };
         let mut shadow = Shadow::new(self, light, &surface);
         self.tree.descend(&mut shadow, &mut Stack::new());
         light.shadows && shadow.counts[0] > 0
@@ -162,9 +159,9 @@ enum Shown {
 
 /// What is seen through a pixel.
 struct Surface {
-    /// At each place: metres, world space, a hair before the surface.
-    points: [DVec3; PLACES.len()],
-    /// Where the centre's point may be for the depth buffer: nearer, and farther.
+    /// Metres, world space, a hair before the surface.
+    points: [DVec3; POINTS],
+    /// The centre's point moved nearer, and farther.
     displaced: [DVec3; 2],
     /// The triangles that were met.
     faces: [u32; PLACES.len()],
@@ -204,12 +201,44 @@ impl<'a> Caster<'a> {
 
     /// What is seen at the places of a pixel.
     fn look(&mut self, x: u32, y: u32) -> Shown {
-        let Camera { eye, forward, near, .. } = self.camera;
+        let Camera { eye, forward, .. } = self.camera;
         let [right, down] = self.pixel;
         let center = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) - self.size / 2.0;
         // Their part along `forward` is 1: distances are depths.
         let directions = PLACES.map(|place| forward + right * (center.x + place.x) + down * (center.y + place.y));
-        let slack = SLACK * (self.world.size + eye.length());
+        let nearest = self.meet(directions, QUARTER * (right.abs() + down.abs()).max_element());
+        if nearest.iter().any(|met| !met.sure || met.instance != nearest[0].instance) {
+            return Shown::Edge;
+        }
+        if nearest[0].instance == u32::MAX {
+            return Shown::Nothing;
+        }
+        let at = |direction: DVec3, depth: f64| eye + direction * (depth * (1.0 - HAIR));
+        let mut points = [DVec3::ZERO; POINTS];
+        for (point, (direction, met)) in points.iter_mut().zip(directions.iter().zip(&nearest)) {
+            *point = at(*direction, met.depth);
+        }
+        // Moved sideways it must begin on the very same triangle: where two join, a rasteriser, which moves
+        // corners to the nearest 256th of a pixel, may give the pixel to the one and the edge of a volume
+        // that begins there to the other.
+        let (depth, moved) = (nearest[0].depth, NUDGE * self.world.size);
+        let (across, along) = (right.normalize(), down.normalize());
+        let sideways = SIDEWAYS.map(|by| directions[0] + (across * by.x + along * by.y) * (moved / depth));
+        let again = self.meet(sideways, moved / depth);
+        if again.iter().any(|met| met.face != nearest[0].face) {
+            return Shown::Edge;
+        }
+        for (point, (direction, met)) in points[PLACES.len()..].iter_mut().zip(sideways.iter().zip(&again)) {
+            *point = at(*direction, met.depth);
+        }
+        let displaced = [-moved, moved].map(|by| points[0] + directions[0].normalize() * by);
+        Shown::Surface(Surface { points, displaced, faces: nearest.map(|met| met.face) })
+    }
+
+    /// The nearest surface in each of some directions, all of them within `spread` of the first, metres for
+    /// each metre of depth.
+    fn meet<const RAYS: usize>(&mut self, directions: [DVec3; RAYS], spread: f64) -> [Nearest; RAYS] {
+        let Camera { eye, forward, near, .. } = self.camera;
         let mut sight = Sight {
             world: self.world,
             eye,
@@ -218,34 +247,12 @@ impl<'a> Caster<'a> {
             pixel: self.pixel,
             inverse: directions[0].recip(),
             directions,
-            spread: (right.abs() + down.abs()) * QUARTER,
-            slack,
-            nearest: [Nearest { depth: f64::INFINITY, face: u32::MAX, instance: u32::MAX, sure: true }; PLACES.len()],
+            spread: 2.0 * spread,
+            slack: SLACK * (self.world.size + eye.length()),
+            nearest: [Nearest { depth: f64::INFINITY, face: u32::MAX, instance: u32::MAX, sure: true }; RAYS],
         };
         self.world.tree.descend(&mut sight, &mut self.stack);
-        let nearest = sight.nearest;
-        // Close to the centre they must meet the very same triangle: where two join, a rasteriser may give
-        // the pixel to the one and the edge of a volume that begins there to the other.
-        let elsewhere = nearest.iter().any(|met| !met.sure || met.instance != nearest[0].instance);
-        if elsewhere || nearest[FIRST_SNAPPED..].iter().any(|met| met.face != nearest[0].face) {
-            return Shown::Edge;
-        }
-        if nearest[0].instance == u32::MAX {
-            return Shown::Nothing;
-        }
-        let depths = nearest.map(|met| met.depth);
-        let (least, most) =
-            depths.iter().fold((f64::INFINITY, 0f64), |(least, most), depth| (least.min(*depth), most.max(*depth)));
-        // Four roundings of a corner's place in single precision, and what corners' moving to the nearest
-        // 256th of a pixel makes of the slope: the places lie half a pixel apart.
-        let reach = depths[0] + eye.abs().max_element() + self.world.largest;
-        let unsure = 4.0 * 0.5f64.powi(24) * reach + (most - least) / 64.0;
-        let at = |place: usize, depth: f64| eye + directions[place] * depth;
-        Shown::Surface(Surface {
-            points: std::array::from_fn(|place| at(place, depths[place] * (1.0 - HAIR))),
-            displaced: [at(0, depths[0] * (1.0 - HAIR) - unsure), at(0, depths[0] + unsure)],
-            faces: nearest.map(|met| met.face),
-        })
+        sight.nearest
     }
 
     /// Whether `light`, the `number`th, reaches all of the points, or none.
@@ -272,34 +279,31 @@ impl<'a> Caster<'a> {
         }
         self.world.tree.descend(&mut shadow, &mut self.stack);
         let shaded = shadow.counts.map(|count| count > 0);
-        let displaced = shadow.displaced.map(|ray| shaded[ray]);
-        let agreed = (0..RAYS).all(|ray| shaded[ray] == shaded[0] || shadow.displaced.contains(&ray));
         if shaded[0] {
             self.last[number] = shadow.whole.or(self.last[number]);
         }
-        match (agreed, displaced == [shaded[0]; 2], shaded[0]) {
-            (false, ..) => Verdict::Edge,
-            (true, false, _) => Verdict::Grazing,
-            (true, true, false) => Verdict::Lit,
-            (true, true, true) => Verdict::Shadow,
+        match shaded {
+            _ if shaded.contains(&!shaded[0]) => Verdict::Edge,
+            [true, ..] => Verdict::Shadow,
+            [false, ..] => Verdict::Lit,
         }
     }
 }
 
 /// The rays through one pixel's places.
-struct Sight<'a> {
+struct Sight<'a, const RAYS: usize> {
     world: &'a World,
     eye: DVec3,
     forward: DVec3,
     near: f64,
     pixel: [DVec3; 2],
-    directions: [DVec3; PLACES.len()],
-    /// Of the middle one.
+    directions: [DVec3; RAYS],
+    /// Of the first one.
     inverse: DVec3,
-    /// How far the others are from the middle one, for each metre of depth.
-    spread: DVec3,
+    /// How far the others are from the first one at most, for each metre of depth.
+    spread: f64,
     slack: f64,
-    nearest: [Nearest; PLACES.len()],
+    nearest: [Nearest; RAYS],
 }
 
 #[derive(Clone, Copy)]
@@ -312,7 +316,7 @@ struct Nearest {
     sure: bool,
 }
 
-impl Bundle for Sight<'_> {
+impl<const RAYS: usize> Bundle for Sight<'_, RAYS> {
     #[inline]
     fn enters(&self, min: DVec3, max: DVec3) -> Option<f64> {
         let (low, high) = (min - self.eye, max - self.eye);
@@ -368,7 +372,7 @@ struct Shadow<'a> {
     /// How far the others are from it at most.
     spread: DVec3,
     /// Where rays begin, and which is the first that does not begin there any more.
-    apices: [(DVec3, usize); PLACES.len() + 2],
+    apices: [(DVec3, usize); POINTS + 2],
     apex_count: usize,
     directions: [DVec3; RAYS],
     /// The rays of the surface moved nearer and farther.
@@ -391,8 +395,8 @@ impl<'a> Shadow<'a> {
         for point in points.iter().chain(moved_points) {
             spread = spread.max((*point - points[0]).abs());
         }
-        let (places, nudges) = (PLACES.len(), NUDGES.len());
-        let mut apices = [(DVec3::ZERO, 0); PLACES.len() + 2];
+        let (places, nudges) = (POINTS, NUDGES.len());
+        let mut apices = [(DVec3::ZERO, 0); POINTS + 2];
         let mut directions = [DVec3::ZERO; RAYS];
         let from_light = !matches!(light.kind, LightKind::Directional);
         let (toward, end, apex_count, displaced);

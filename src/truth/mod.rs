@@ -13,13 +13,13 @@
 //! Only where all of them agree the pixel is *decided*: a picture that says otherwise there is wrong,
 //! and one wrong pixel is too many. Where they do not, an outline or the border of a shadow passes
 //! through the pixel: an [edge](Verdict::Edge), about which rounding may decide, counted but not asked
-//! about. So that slivers do not slip between the five, four more look 1/128 pixel around the centre:
-//! a rasteriser moves corners to the nearest 256th. They must meet one and the same triangle.
+//! about.
 //!
-//! One more doubt is counted by itself. A light in the plane of a face, or nearly, throws the sides of
-//! the face's own volume almost into that plane, closer to it than single precision tells apart. Two
-//! more rays therefore start where the surface would be if it were that much nearer or farther; where they
-//! disagree with the rest the pixel is [grazing](Verdict::Grazing).
+//! Moved is either end of the ray to the light, by a millionth of the scene's size: the light's, and the
+//! surface's, where the eye would see it were it that much nearer, farther, or beside. Beside, it must
+//! still begin on the same triangle: a rasteriser moves corners to the nearest 256th of a pixel, and may
+//! give what lies on the joint of two triangles to the one and the edge of a volume that begins there to
+//! the other.
 //!
 //! ```no_run
 //! # use obscura::{frame::Camera, scene::{Pose, Scene}, truth::World};

@@ -15,7 +15,7 @@ pub struct World {
     pub(super) faces: Vec<Face>,
     pub(super) tree: Tree,
     pub(super) masks: Masks,
-    /// Radius of the ball about everything shown, metres.
+    /// Diameter of the ball about everything shown, metres.
     pub(super) size: f64,
     /// The largest coordinate, metres.
     pub(super) largest: f64,
@@ -96,7 +96,7 @@ impl World {
         let bounds = scene.bounds(pose);
         let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
         let largest = if largest.is_finite() { f64::from(largest) } else { 0.0 };
-        Self { tree: Tree::new(&boxes), faces, masks, size: f64::from(bounds.radius()), largest }
+        Self { tree: Tree::new(&boxes), faces, masks, size: 2.0 * f64::from(bounds.radius()), largest }
     }
 }
 

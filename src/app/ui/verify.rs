@@ -20,13 +20,7 @@ pub fn verify(ui: &mut Ui, desk: &Desk<'_>, view: &View<'_>, actions: &mut Vec<A
     }
     let Some(finding) = view.verification.finding(desk.settings) else { return };
     for (name, found) in &finding.lights {
-        let words = format!(
-            "{name}: {} decided, {} edges, {} grazing, {} wrong",
-            found.decided,
-            found.edges,
-            found.grazing,
-            found.wrong()
-        );
+        let words = format!("{name}: {} decided, {} edges, {} wrong", found.decided, found.edges, found.wrong());
         let color = if found.wrong() == 0 { style::GOOD } else { style::ERROR };
         ui.label(RichText::new(words).color(color));
     }
