@@ -109,7 +109,8 @@ fn roof(length: f64, slope: f64, rise: f64) -> Soup {
         DVec2::new((i as f64 / n as f64 - 0.5) * length, 0.035 + 0.045 * phase.x.max(-0.4))
     };
     let mut outline: Vec<DVec2> = (0..=n).rev().map(at).collect();
-    outline.extend([(-length / 2.0, -0.06), (length / 2.0, -0.06)].map(DVec2::from));
+    // As many points below as there are tiles: two alone would make needles of the eaves.
+    outline.extend((0..=tiles).map(|i| DVec2::new((i as f64 / tiles as f64 - 0.5) * length, -0.06)));
     let reach = (slope * slope + rise * rise).sqrt();
     extruded(&outline, &[], reach).map(|p| {
         let along = reach / 2.0 - p.z; // 0 at the eaves

@@ -116,7 +116,39 @@ pub fn triangulate(outline: &[DVec2], holes: &[Vec<DVec2>]) -> Vec<[usize; 3]> {
     if let [a, b, c] = ring[..] {
         triangles.push([a, b, c]);
     }
+    flip(&points, &mut triangles);
     triangles
+}
+
+/// Flips edges until the triangulation is Delaunay (Lawson): ears leave slivers, even triangles of three
+/// points of one line, and no rasteriser finds the depth of what is thinner than its grid.
+fn flip(points: &[DVec2], triangles: &mut [[usize; 3]]) {
+    let angle = |at: usize, a: usize, b: usize| (points[a] - points[at]).angle_to(points[b] - points[at]).abs();
+    // Every flip makes the smallest angle larger, so this ends; rounding is kept from going on by the margin.
+    const MARGIN: f64 = 1e-6;
+    let mut flipped = true;
+    while flipped {
+        flipped = false;
+        for first in 0..triangles.len() {
+            for second in 0..triangles.len() {
+                for corner in 0..3 {
+                    let [a, b, c] = [0, 1, 2].map(|i| triangles[first][(corner + i) % 3]);
+                    let Some(other) = (0..3).find(|&i| triangles[second][i] == c && triangles[second][(i + 1) % 3] == b) else {
+                        continue;
+                    };
+                    // The edge from b to c, with a on its left and d on its right.
+                    let d = triangles[second][(other + 2) % 3];
+                    let area = |a: usize, b: usize, c: usize| cross(points[a], points[b], points[c]);
+                    let better = angle(a, b, c) + angle(d, b, c) > std::f64::consts::PI + MARGIN;
+                    if better && area(a, b, d) > 1e-9 && area(a, d, c) > 1e-9 {
+                        triangles[first] = [a, b, d];
+                        triangles[second] = [a, d, c];
+                        flipped = true;
+                    }
+                }
+            }
+        }
+    }
 }
 
 /// A slab between z = -depth/2 and z = depth/2. Outline and holes may run either way.
