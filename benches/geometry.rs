@@ -68,7 +68,7 @@ fn geometry(criterion: &mut Criterion) {
 
     let mut group = criterion.benchmark_group("200,000 triangles, each light");
     let (mut facing, mut edges) = (Facing::default(), Vec::new());
-    group.bench_function("facing", |bencher| bencher.iter(|| facing.decide(&topology, &planes, black_box(lights[0].1))));
+    group.bench_function("facing", |bencher| bencher.iter(|| facing.decide(&topology, &planes, &welded, black_box(lights[0].1))));
     group.bench_function("silhouette from facing", |bencher| bencher.iter(|| silhouette(&topology, &facing, &mut edges)));
     let (mut scratch, mut out) = (VolumeScratch::default(), Vec::<u32>::new());
     for (name, light) in lights {
@@ -97,7 +97,7 @@ fn flattening(criterion: &mut Criterion) {
     let planes = planes_of(&topology, &welded);
     let bounds = Aabb::from_points(welded.iter().copied());
     let light = Vec4::new(5.0, 7.0, 3.0, 1.0);
-    facing.decide(&topology, &planes, light);
+    facing.decide(&topology, &planes, &welded, light);
     silhouette(&topology, &facing, &mut edges);
     let plane = || flattening_plane(welded.iter().copied(), &bounds, black_box(light.as_dvec4()));
     let Some(found) = plane() else { return };

@@ -260,6 +260,8 @@ struct Frame<'a> {
     pose: &'a Pose,
     capabilities: &'a Capabilities,
     near_pyramid: NearPyramid,
+    /// Of each instance, whether it reaches into that pyramid, once asked.
+    across: Vec<OnceCell<bool>>,
     /// What the stencil was cleared to last, and which bits are no longer so.
     stored: u8,
     used: u8,
@@ -304,7 +306,9 @@ impl<'a> Frame<'a> {
         let near_pyramid = NearPyramid::of(camera.eye, camera.near_rectangle());
         let receivers = scene.bounds(pose).union(&Aabb::around(camera.eye, camera.eye));
         let stalls = Stalls::new(scene, pose, &plan.views[0]);
-        let mut frame = Self { settings, scene, pose, capabilities, near_pyramid, stored: 0, used: 0, stalls, receivers, plan };
+        let across = vec![OnceCell::new(); scene.instances().count()];
+        let mut frame =
+            Self { settings, scene, pose, capabilities, near_pyramid, across, stored: 0, used: 0, stalls, receivers, plan };
         frame.choose_bits();
         frame
     }
@@ -468,6 +472,7 @@ impl<'a> Frame<'a> {
                     pose: self.pose,
                     view,
                     near_pyramid: &self.near_pyramid,
+                    across: &self.across[instance],
                     instance,
                     node_index,
                     node,

@@ -17,7 +17,7 @@ fn bound(shape: &Shape, light: Vec4, enough: u32) -> u32 {
 /// triangles, and past all corners.
 fn by_rays(shape: &Shape, light: Vec4, more: &[Vec3]) -> i32 {
     let mut facing = Facing::default();
-    facing.decide(&shape.mesh.topology, &shape.planes, light);
+    facing.decide(&shape.mesh.topology, &shape.planes, &shape.welded, light);
     let corners = |at: usize| shape.mesh.topology.triangles()[at].map(|vertex| shape.welded[vertex as usize].as_dvec3());
     let middles = (0..shape.mesh.topology.triangles().len()).map(|at| {
         let [a, b, c] = corners(at);

@@ -195,3 +195,55 @@ fn sample(at: usize) -> DVec3 {
     let spread = |step: f64| (at as f64 * step).fract() * 4.0 - 2.0;
     DVec3::new(spread(0.618_034), spread(0.754_878), spread(0.569_840))
 }
+
+/// No edge of the silhouette lies on the light's side of a triangle in whose plane the light is: the sides that
+/// begin there would cover the triangle at its own depth.
+fn leaves_edge_on_triangles_behind(shape: &Shape, light: Vec4) -> (usize, usize) {
+    let volume = shape.volume(light, VolumeParts::SIDES);
+    let corner = |vertex: u32| shape.welded[vertex as usize].as_dvec3();
+    let way = |from: DVec3| light.truncate().as_dvec3() - from * f64::from(light.w);
+    let (mut edge_on, mut covered) = (0, 0);
+    for triangle in shape.mesh.topology.triangles() {
+        let [a, b, c] = triangle.map(corner);
+        let normal = (b - a).cross(c - a).normalize();
+        if normal.dot(way(a).normalize()).abs() > 1e-6 {
+            continue;
+        }
+        edge_on += 1;
+        for (from, to) in [(0, 1), (1, 2), (2, 0)] {
+            let (from, to) = (triangle[from], triangle[to]);
+            let lit_side = (corner(to) - corner(from)).cross(normal).dot(way(corner(from))) > 0.0;
+            covered += usize::from(lit_side && volume.scratch.silhouette().iter().any(|e| *e == [from, to] || *e == [to, from]));
+        }
+    }
+    (edge_on, covered)
+}
+
+#[test]
+fn the_silhouette_runs_behind_what_the_light_sees_edge_on() {
+    // The top of a cube, from the side: it goes with the wall that faces the light.
+    let solid = Shape::new(cube());
+    for light in [Vec4::new(5.0, 1.0, 0.3, 1.0), Vec4::new(-0.2, 0.0, 0.8, 0.0), Vec4::new(-4.0, 1.000_01, -7.0, 1.0)] {
+        let (edge_on, covered) = leaves_edge_on_triangles_behind(&solid, light);
+        assert!(edge_on >= 2 && covered == 0, "{edge_on} edge-on, {covered} covered before {light}");
+    }
+    // A notch in a block: the floor of the notch goes with the wall that hides it from the light.
+    let outline = [(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (2.0, 2.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)];
+    let strips = [[0, 1, 4], [0, 4, 5], [1, 2, 3], [1, 3, 4], [0, 5, 6], [0, 6, 7]];
+    let count = outline.len() as u32;
+    let positions = [0.0, 1.0].iter().flat_map(|z| outline.iter().map(move |(x, y)| glam::Vec3::new(*x, *y, *z))).collect();
+    let mut indices = Vec::new();
+    for [a, b, c] in strips {
+        indices.extend([a, c, b, a + count, b + count, c + count]);
+    }
+    for at in 0..count {
+        let next = (at + 1) % count;
+        indices.extend([at, next, next + count, at, next + count, at + count]);
+    }
+    let notch = Shape::new((positions, indices));
+    assert!(notch.mesh.topology.report().is_solid(), "{:?}", notch.mesh.topology.report());
+    for light in [Vec4::new(9.0, 1.0, 0.4, 1.0), Vec4::new(-9.0, 2.0, 0.4, 1.0)] {
+        let (edge_on, covered) = leaves_edge_on_triangles_behind(&notch, light);
+        assert!(edge_on >= 2 && covered == 0, "{edge_on} edge-on, {covered} covered before {light}");
+    }
+}

@@ -47,18 +47,43 @@ pub fn holding_count(topology: &Topology, positions: &[Vec3], light: DVec4, eye:
             continue;
         }
         let corners = triangle.map(welded);
+        // Whether one that is edge-on counts, its neighbours decide: where it matters, nobody knows here.
         let counts = contribution(plane(corners), light, two_sided);
-        if counts == 0 {
+        if counts == Some(0) {
             continue;
         }
-        match sight.crossing(corners.map(|corner| corner.as_dvec3())) {
-            Crossing::None => {}
-            Crossing::Unclear => return EyeCount::Ambiguous,
-            Crossing::FromFront => count += i32::from(counts),
-            Crossing::FromBack => count -= i32::from(counts),
+        match (sight.crossing(corners.map(|corner| corner.as_dvec3())), counts) {
+            (Crossing::None, _) => {}
+            (Crossing::Unclear, _) | (_, None) => return EyeCount::Ambiguous,
+            (Crossing::FromFront, Some(counts)) => count += i32::from(counts),
+            (Crossing::FromBack, Some(counts)) => count -= i32::from(counts),
         }
     }
     EyeCount::Count(count)
+}
+
+/// Whether `eye` lies within a solid component of `topology`, its mesh's vertices at `positions`; `None`
+/// where rounding could decide. Object space.
+#[must_use]
+pub fn inside_solid(topology: &Topology, positions: &[Vec3], eye: DVec3) -> Option<bool> {
+    // Any direction will do; this one seldom runs along an edge.
+    let sight = Sight::new(positions, DVec4::new(0.487_1, 0.734_9, 0.472_0, 0.0), eye)?;
+    let sides: Vec<u8> = topology.weld().vertex_of_welded.iter().map(|&vertex| sight.sides(positions[vertex as usize])).collect();
+    let mut winding = 0;
+    for (triangle, _) in topology.triangles().iter().zip(topology.two_sided()).filter(|(_, soup)| !**soup) {
+        let [a, b, c] = triangle.map(|vertex| sides[vertex as usize]);
+        if a & b & c != 0 {
+            continue;
+        }
+        let corners = triangle.map(|vertex| positions[topology.weld().vertex_of_welded[vertex as usize] as usize].as_dvec3());
+        match sight.crossing(corners) {
+            Crossing::None => {}
+            Crossing::Unclear => return None,
+            Crossing::FromFront => winding += 1,
+            Crossing::FromBack => winding -= 1,
+        }
+    }
+    Some(winding != 0)
 }
 
 /// The segment from the eye to the light, and the plane square to it.
@@ -174,6 +199,22 @@ mod tests {
             [[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]].map(|[x, z]| Vec3::new(x, 1.0, z)).to_vec();
         let weld = Weld::new(&positions, |_, _| Ordering::Equal);
         (Topology::build(&[0, 1, 2, 0, 2, 3], &positions, weld, |_| true), positions)
+    }
+
+    #[test]
+    fn a_solid_holds_what_is_inside_it_and_a_sheet_nothing() {
+        let at = |corner: usize| Vec3::new((corner & 1) as f32, (corner >> 1 & 1) as f32, (corner >> 2) as f32);
+        let positions: Vec<Vec3> = (0..8).map(at).collect();
+        let indices =
+            [0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5];
+        let topology = Topology::build(&indices, &positions, Weld::new(&positions, |_, _| Ordering::Equal), |_| true);
+        let holds = |x: f64, y: f64, z: f64| inside_solid(&topology, &positions, DVec3::new(x, y, z));
+        assert_eq!(holds(0.5, 0.4, 0.3), Some(true));
+        assert_eq!(holds(-0.5, -0.4, -0.3), Some(false), "the ray goes through it, in and out");
+        assert_eq!(holds(1.5, 0.4, 0.3), Some(false));
+        assert_eq!(holds(1.0, 0.4, 0.3), None, "on its surface");
+        let (sheet, positions) = square();
+        assert_eq!(inside_solid(&sheet, &positions, DVec3::new(0.2, 0.0, 0.1)), Some(false));
     }
 
     fn count(light: DVec4, eye: DVec3) -> EyeCount {

@@ -260,7 +260,7 @@ mod tests {
         let mut planes = Planes::default();
         planes.build(topology, welded);
         let mut facing = Facing::default();
-        facing.decide(topology, &planes, light.as_vec4());
+        facing.decide(topology, &planes, welded, light.as_vec4());
         let mut edges = Vec::new();
         silhouette(topology, &facing, &mut edges);
         let bounds = Aabb::from_points(welded.iter().copied());

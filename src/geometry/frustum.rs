@@ -3,9 +3,9 @@
 //! Both answer "is it safe to skip?", so both err on one side: a pyramid may be said to touch what
 //! it does not, a rectangle may be a pixel too large.
 
-use glam::{DAffine3, DMat4, DVec2, DVec3, DVec4};
+use glam::{DAffine3, DMat4, DVec2, DVec3, DVec4, Vec3};
 
-use super::{Aabb, Body};
+use super::{Aabb, Body, Topology};
 
 /// The convex hull of the eye and the near rectangle: what the near plane cuts off the view.
 ///
@@ -17,20 +17,69 @@ use super::{Aabb, Body};
 ///             eye
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct NearPyramid(Body);
+pub struct NearPyramid {
+    body: Body,
+    eye: DVec3,
+    rectangle: [DVec3; 4],
+}
 
 impl NearPyramid {
     /// From the eye and the corners of the near rectangle, in order around it, world space.
     #[must_use]
     pub fn of(eye: DVec3, near_rectangle: [DVec3; 4]) -> Self {
-        Self(Body::pyramid(eye.extend(1.0), near_rectangle))
+        Self { body: Body::pyramid(eye.extend(1.0), near_rectangle), eye, rectangle: near_rectangle }
+    }
+
+    /// Whether a triangle of `topology`, its mesh's vertices at `positions`, may reach into the pyramid. May
+    /// say yes wrongly, never no.
+    ///
+    /// Takes time in proportion to the mesh; ask [`Self::may_touch`] first.
+    #[must_use]
+    pub fn may_touch_surface(&self, topology: &Topology, positions: &[Vec3], world_from_object: &DAffine3) -> bool {
+        let object_from_world = world_from_object.inverse();
+        let eye = object_from_world.transform_point3(self.eye);
+        let rectangle = self.rectangle.map(|corner| object_from_world.transform_point3(corner));
+        let [a, b, c, d] = rectangle;
+        // Outward, whatever the winding: the pyramid's middle is within.
+        let middle = (eye * 2.0 + a + c) / 4.0;
+        let plane = |at: DVec3, normal: DVec3| {
+            let normal = normal.normalize_or_zero();
+            let normal = if normal.dot(middle - at) > 0.0 { -normal } else { normal };
+            normal.extend(-normal.dot(at))
+        };
+        let side = |from: DVec3, to: DVec3| plane(eye, (from - eye).cross(to - eye));
+        let planes = [side(a, b), side(b, c), side(c, d), side(d, a), plane(a, (b - a).cross(c - a))];
+        if !planes.iter().all(|plane| plane.is_finite() && plane.truncate() != DVec3::ZERO) {
+            return true;
+        }
+        // Generously what single precision is wrong by.
+        let largest =
+            eye.abs().max_element() + positions.iter().fold(Vec3::ZERO, |most, p| most.max(p.abs())).max_element() as f64;
+        let margin = 1e-6 * largest;
+        let welded = |vertex: u32| positions[topology.weld().vertex_of_welded[vertex as usize] as usize].as_dvec3();
+        let beyond: Vec<u8> = (0..topology.weld().len() as u32)
+            .map(|vertex| {
+                let at = welded(vertex).extend(1.0);
+                planes.iter().enumerate().map(|(bit, plane)| u8::from(plane.dot(at) > margin) << bit).sum()
+            })
+            .collect();
+        topology.triangles().iter().any(|triangle| {
+            let [p, q, r] = triangle.map(|vertex| beyond[vertex as usize]);
+            if p & q & r != 0 {
+                return false;
+            }
+            let [p, q, r] = triangle.map(welded);
+            let normal = (q - p).cross(r - p).normalize_or_zero();
+            let heights = [eye, a, b, c, d].map(|point| normal.dot(point - p));
+            !(heights.iter().all(|height| *height > margin) || heights.iter().all(|height| *height < -margin))
+        })
     }
 
     /// Whether the box `bounds` of an object's space may reach into the pyramid. May say yes
     /// wrongly, never no.
     #[must_use]
     pub fn may_touch(&self, bounds: &Aabb, world_from_object: &DAffine3) -> bool {
-        self.0.may_meet(&Body::boxed(bounds, world_from_object))
+        self.body.may_meet(&Body::boxed(bounds, world_from_object))
     }
 }
 

@@ -105,7 +105,7 @@ impl OverlapScratch {
     /// `enough` or less is as good as any, and not made smaller.
     pub fn winding_bound(&mut self, caster: Caster<'_>, light: Vec4, enough: u32) -> u32 {
         let Caster { topology, welded, planes, bounds } = caster;
-        self.facing.decide(topology, planes, light);
+        self.facing.decide(topology, planes, welded, light);
         let counted = self.facing.contributions().iter().filter(|counts| **counts != 0).count();
         let mut best = u32::try_from(counted).unwrap_or(u32::MAX);
         if best <= 1 {

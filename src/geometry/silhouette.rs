@@ -52,6 +52,11 @@ impl Planes {
         }
     }
 
+    /// Of one triangle, not normalised.
+    fn normal(&self, triangle: usize) -> Vec3 {
+        Vec3::new(self.x[triangle], self.y[triangle], self.z[triangle])
+    }
+
     /// Of how many triangles.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -73,19 +78,28 @@ pub(super) fn plane(corners: [Vec3; 3]) -> Vec4 {
     normal.extend(-normal.dot(a)).as_vec4()
 }
 
-/// What a triangle adds to the volume. The one place where that is decided.
-///
-/// A triangle in whose plane the light lies, to within a millionth of the light's coordinates, does not
-/// face it. Were it counted, its own flat volume would be open to the rounding of depths: its cap is
-/// surely counted, the sides that lie in its plane only by chance, and what is missing lights a place
-/// that others shade. Left out, chance can only darken what the light but grazes.
+/// The light's height over a triangle's plane, and the height up to which it is taken to lie in that
+/// plane: some hundred-thousandths of the coordinates it comes from. Neither is normalised. Closer than
+/// that, depths do not tell the plane from the sides of a volume that the light throws along it; and a
+/// silhouette that runs on the other side of such a triangle is off by no more than that share of its
+/// length.
 #[inline]
-pub(super) fn contribution(plane: Vec4, light: Vec4, two_sided: bool) -> i8 {
-    const IN_PLANE: f32 = 1.0 / (1u32 << 20) as f32;
+fn height(plane: Vec4, light: Vec4) -> [f32; 2] {
+    const IN_PLANE: f32 = 1.0 / (1u32 << 16) as f32;
     let reach = light.x.abs().max(light.y.abs()).max(light.z.abs());
     let unsure = (plane.x.abs() + plane.y.abs() + plane.z.abs()) * reach + (plane.w * light.w).abs();
-    let height = plane.x * light.x + plane.y * light.y + plane.z * light.z + plane.w * light.w;
-    let facing = height > IN_PLANE * unsure;
+    [plane.x * light.x + plane.y * light.y + plane.z * light.z + plane.w * light.w, IN_PLANE * unsure]
+}
+
+/// What a triangle adds to the volume by itself; `None` where the light lies in its plane, and the
+/// triangle goes with its neighbours ([`Facing::decide`]).
+#[inline]
+pub(super) fn contribution(plane: Vec4, light: Vec4, two_sided: bool) -> Option<i8> {
+    let [height, unsure] = height(plane, light);
+    (height.abs() > unsure).then(|| counts(height > 0.0, two_sided))
+}
+
+fn counts(facing: bool, two_sided: bool) -> i8 {
     i8::from(facing) - i8::from(two_sided & !facing)
 }
 
@@ -93,6 +107,8 @@ pub(super) fn contribution(plane: Vec4, light: Vec4, two_sided: bool) -> i8 {
 #[derive(Debug, Clone, Default)]
 pub struct Facing {
     contributions: Vec<i8>,
+    /// Which triangles have the light in their plane; empty where none has.
+    edge_on: Vec<bool>,
 }
 
 impl Facing {
@@ -105,15 +121,73 @@ impl Facing {
     ///             v     | +1 |              +1
     ///                   |____| 0             ____ -1 (its back to the light)
     /// ```
-    pub fn decide(&mut self, topology: &Topology, planes: &Planes, light: Vec4) {
+    ///
+    /// A triangle in whose plane the light lies may be counted or not; its own volume is flat, and closed
+    /// either way. But where it leaves the silhouette on its side towards the light, the sides that begin
+    /// there cover it, at its own depth, and rounding says pixel by pixel what they count. So it goes with
+    /// the neighbour over which the light looks at it, and the silhouette runs where the light leaves it:
+    ///
+    /// ```text
+    ///   light *  - - - - - - .__________.            .____edge-on______
+    ///                   faces|  edge-on  \\ away      /away            | faces (from within)
+    ///                   it: +1    +1      \\ 0      / 0               |
+    /// ```
+    pub fn decide(&mut self, topology: &Topology, planes: &Planes, welded: &[Vec3], light: Vec4) {
         let soup = topology.two_sided();
         let count = soup.len().min(planes.len());
         // Slices of one length, so that the loop has no checks in it and runs several at a time.
         let (x, y, z, offset) = (&planes.x[..count], &planes.y[..count], &planes.z[..count], &planes.offset[..count]);
         let soup = &soup[..count];
         self.contributions.resize(count, 0);
+        let mut edge_on = 0u32;
         for (at, out) in self.contributions.iter_mut().enumerate() {
-            *out = contribution(Vec4::new(x[at], y[at], z[at], offset[at]), light, soup[at]);
+            let [height, unsure] = height(Vec4::new(x[at], y[at], z[at], offset[at]), light);
+            *out = counts(height > unsure, soup[at]);
+            edge_on += u32::from(height.abs() <= unsure);
+        }
+        if edge_on > 0 {
+            let plane = |at: usize| Vec4::new(x[at], y[at], z[at], offset[at]);
+            self.edge_on.clear();
+            self.edge_on.extend((0..count).map(|at| !soup[at] && contribution(plane(at), light, false).is_none()));
+            self.follow_neighbours(topology, planes, welded, light);
+        }
+    }
+
+    /// Decides the triangles that are edge-on, from those next to the light on.
+    fn follow_neighbours(&mut self, topology: &Topology, planes: &Planes, welded: &[Vec3], light: Vec4) {
+        let pairs = topology.pairs();
+        // Triangle, and the neighbour across an edge on its side towards the light.
+        let mut towards: Vec<(u32, u32)> = Vec::new();
+        for at in 0..pairs.a.len() {
+            for (triangle, neighbour, ends) in [
+                (pairs.forward[at], pairs.backward[at], [pairs.a[at], pairs.b[at]]),
+                (pairs.backward[at], pairs.forward[at], [pairs.b[at], pairs.a[at]]),
+            ] {
+                if self.edge_on[triangle as usize] {
+                    let [a, b] = ends.map(|vertex| welded[vertex as usize].as_dvec3());
+                    let normal = planes.normal(triangle as usize).as_dvec3();
+                    let outward = (b - a).cross(normal);
+                    let light = light.as_dvec4();
+                    if outward.dot(light.truncate() - a * light.w) > 0.0 {
+                        towards.push((triangle, neighbour));
+                    }
+                }
+            }
+        }
+        towards.sort_unstable();
+        // A neighbour may be edge-on itself: what it decides is passed on, through flat patches of this many
+        // triangles in a row. Where two neighbours disagree, one side must lie over a part of the triangle.
+        const PATCH: usize = 64;
+        for _ in 0..PATCH {
+            let mut changed = false;
+            for follows in towards.chunk_by(|a, b| a.0 == b.0) {
+                let decided = follows.iter().map(|(_, neighbour)| self.contributions[*neighbour as usize]).min().unwrap_or(0);
+                let own = &mut self.contributions[follows[0].0 as usize];
+                changed |= std::mem::replace(own, decided) != decided;
+            }
+            if !changed {
+                break;
+            }
         }
     }
 

@@ -199,7 +199,7 @@ impl VolumeScratch {
         indices: &mut Vec<I>,
     ) -> VolumeIndices {
         let Caster { topology, welded, planes, .. } = caster;
-        self.facing.decide(topology, planes, light);
+        self.facing.decide(topology, planes, welded, light);
         let to_one_point = light.w == 0.0 && !parts.finite;
         let dark_cap = parts.dark_cap && !to_one_point;
         if parts.sides || dark_cap {

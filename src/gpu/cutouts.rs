@@ -59,7 +59,7 @@ impl CutoutScratch {
                 (append_cutout(vertices, &self.edges, counted(1), counted(-1), parts, indices), None)
             }
             CutoutShape::Flattened => {
-                self.facing.decide(topology, planes, light);
+                self.facing.decide(topology, planes, welded, light);
                 silhouette(topology, &self.facing, &mut self.edges);
                 let outline = self.flattener.flatten(welded, &self.edges, &cutout.plane, cutout.throw.light);
                 let first = self.vertices.len() as u32;

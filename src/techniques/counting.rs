@@ -17,7 +17,7 @@ use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{
     Action, Capabilities, Cutout, Draw, DrawSet, Look, Method, Part, Program, Step, Target, VolumePart, VolumePlan,
 };
-use crate::geometry::eye_count::{EyeCount, holding_count};
+use crate::geometry::eye_count::{EyeCount, holding_count, inside_solid};
 use crate::geometry::frustum::NearPyramid;
 use crate::geometry::light_in_object;
 use crate::geometry::near_rectangle::may_shadow;
@@ -37,6 +37,8 @@ pub struct Caster<'a> {
     pub view: &'a View,
     /// Eye and near rectangle of that view.
     pub near_pyramid: &'a NearPyramid,
+    /// What [`Self::across_near_plane`] found, once asked: the same for every light.
+    pub across: &'a OnceCell<bool>,
     /// Its number among the scene's instances.
     pub instance: usize,
     /// Its node's number.
@@ -64,8 +66,17 @@ impl Caster<'_> {
     /// the eye. Conservative: may say yes wrongly, never no.
     #[must_use]
     pub fn across_near_plane(&self) -> bool {
-        let bounds = self.pose.bounds(self.scene, self.node_index);
-        self.near_pyramid.may_touch(&bounds, &self.pose.world_from_object[self.node_index])
+        *self.across.get_or_init(|| {
+            let world_from_object = &self.pose.world_from_object[self.node_index];
+            let bounds = self.pose.bounds(self.scene, self.node_index);
+            if !self.near_pyramid.may_touch(&bounds, world_from_object) {
+                return false;
+            }
+            let (topology, positions) = (&self.mesh.topology, self.pose.positions(self.scene, self.node_index));
+            let eye = world_from_object.inverse().transform_point3(self.view.camera.eye);
+            self.near_pyramid.may_touch_surface(topology, positions, world_from_object)
+                || inside_solid(topology, positions, eye) != Some(false)
+        })
     }
 
     /// Whether every light-facing triangle of the caster is in the depth buffer, or something nearer
