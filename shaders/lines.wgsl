@@ -2,7 +2,7 @@
 
 struct LineVertex {
     @location(0) at: vec2f,         // pixels from the upper left
-    @location(1) color: vec4f,      // linear, premultiplied
+    @location(1) color: vec4f,      // as the picture stores it, premultiplied
 }
 
 struct LinePoint {

@@ -33,9 +33,26 @@ fn tone_map(behind: Backdrop) -> @location(0) vec4f {
     return shown(scene.rgb * frame.exposure + behind.color * (1.0 - scene.a));
 }
 
+override BANDS: u32 = 1u;
+
+// Of two triangles: right and down, 0 or 1.
+const CORNERS = array<vec2f, 6>(
+    vec2f(0.0, 0.0), vec2f(0.0, 1.0), vec2f(1.0, 0.0), vec2f(1.0, 0.0), vec2f(0.0, 1.0), vec2f(1.0, 1.0),
+);
+
+// The gradient in bands across the picture, finished at their corners: between them the tone curve and
+// the encoding are as good as straight.
+@vertex
+fn band_vertex(@builtin(vertex_index) index: u32) -> Backdrop {
+    let corner = CORNERS[index % 6u];
+    let y = (f32(index / 6u) + corner.y) / f32(BANDS);
+    let color = shown(mix(frame.background_top, frame.background_bottom, y)).rgb;
+    return Backdrop(vec4f(corner.x * 2.0 - 1.0, 1.0 - y * 2.0, 0.0, 1.0), color);
+}
+
 @fragment
 fn background(behind: Backdrop) -> @location(0) vec4f {
-    return shown(behind.color);
+    return vec4f(behind.color, 1.0);
 }
 
 // Display values, 0 to 1 as the picture stores them, go through unchanged.

@@ -4,15 +4,16 @@
 // For the failure gallery: by way of world space, in two products where `clip_position` has one. Equal in
 // mathematics, it differs in the last bits, and what lies on a surface may end up behind it.
 @vertex
-fn volume_vertex_mismatched(@location(0) vertex: vec4f, @builtin(instance_index) volume: u32) -> VolumePoint {
+fn volume_vertex_mismatched(@location(0) vertex: vec4f, @builtin(instance_index) first: u32) -> VolumePoint {
+    let volume = volume_of(vertex, first);
     let world = objects[volumes[volume].object].world_from_object * volume_in_object(vertex, volume);
     return VolumePoint(frame.clip_from_world * world);
 }
 
 // ZP+: a light cap as the light sees it through the near rectangle.
 @vertex
-fn near_plane_vertex(@location(0) vertex: vec4f, @builtin(instance_index) volume: u32) -> VolumePoint {
-    return VolumePoint(volumes[volume].thrown * vec4f(vertex.xyz, 1.0));
+fn near_plane_vertex(@location(0) vertex: vec4f, @builtin(instance_index) first: u32) -> VolumePoint {
+    return VolumePoint(volumes[volume_of(vertex, first)].thrown * vec4f(vertex.xyz, 1.0));
 }
 
 // Counting: the stencil is all that changes.

@@ -27,7 +27,7 @@ use crate::settings::{Accumulation, MAX_FRAMES, Settings, Show, Technique, Textu
 use crate::techniques::above::{Above, above};
 use crate::techniques::cases::{self, Class};
 use crate::techniques::counting::LightCount;
-use crate::techniques::culling::{Audience, Interest, Stalls, light_rect};
+use crate::techniques::culling::{Audience, Interest, Stalls, around, light_rect};
 use crate::techniques::labels::{self, Named};
 use crate::techniques::own_bits::{Round, Shining};
 use crate::techniques::{self, Caster, bounds, counting, depth_bounds, show, surfaces, wide};
@@ -359,22 +359,27 @@ impl<'a> Frame<'a> {
     }
 
     /// The frame of one light at most, with nothing blended: depth, the count, and then every surface
-    /// once, in its final colour. Nothing is accumulated, so the linear target is not used at all.
+    /// once, in its final colour. Nothing is accumulated, so the linear target is not used at all. Where
+    /// nothing is counted, surfaces lay depth as they are drawn.
     fn draw_directly(&mut self, only: Option<Round>, groups: &[surfaces::SurfaceGroup]) {
         let whole = self.whole();
         let round = only.unwrap_or_default();
         self.clear_all([0.0, 0.0, 0.0, 1.0], round.base);
-        self.extend(surfaces::depth(groups, whole));
+        let shining = round.lights.first();
+        let budget = shining.and_then(|shining| shining.budget);
+        self.extend(surfaces::depth(groups, budget.is_some(), whole));
+        // Where no volume is drawn the count stays what it was.
+        let counted = round.steps.iter().filter_map(Step::scissor).reduce(around);
+        let scissor = counted.filter(|_| round.base == 0).unwrap_or(whole);
         for step in round.steps {
             self.push(Step { action: step.action.onto(Target::Direct), ..step });
         }
-        let shining = round.lights.first();
         let reached = shining.map(|shining| self.reached(shining.light)).unwrap_or_default();
-        let only = shining.map(|&Shining { light, budget, .. }| surfaces::OnlyLight {
+        let only = shining.map(|&Shining { light, .. }| surfaces::OnlyLight {
             light,
             shape: (&self.pose.lights[light]).into(),
             reached: &reached,
-            budget,
+            dark: budget.map(|budget| surfaces::Dark { budget, scissor }),
         });
         self.extend(surfaces::finished(groups, only.as_ref(), whole));
         self.push(show::background(whole));

@@ -2,7 +2,14 @@
 // and w = 0 where the light throws it: onto the plane where the volume ends, which may be the one at
 // infinity. A directional light throws all of them to one point at infinity.
 //
+// Where volumes are merged into one draw (gpu/merged.rs), w has twice its volume's number more.
+//
 // A cut-out's vertices with w = 0 go through its matrix instead (K 6.2.1, appendix C, "Advanced").
+
+// `first` is the draw's instance number.
+fn volume_of(vertex: vec4f, first: u32) -> u32 {
+    return first + (u32(vertex.w) >> 1u);
+}
 
 fn volume_position(vertex: vec4f, volume: u32) -> vec4f {
     return clip_position(volumes[volume].object, volume_in_object(vertex, volume));
@@ -26,7 +33,7 @@ fn volume_in_object(vertex: vec4f, volume: u32) -> vec4f {
         let metres = length((objects[volumes[volume].object].world_from_object * vec4f(way, 0.0)).xyz);
         thrown = vec4f(select(vertex.xyz, light.xyz, light.w == 1.0) + way * (volumes[volume].extrusion / metres), 1.0);
     }
-    return select(thrown, vec4f(vertex.xyz, 1.0), vertex.w == 1.0);
+    return select(thrown, vec4f(vertex.xyz, 1.0), (u32(vertex.w) & 1u) == 1u);
 }
 
 struct VolumePoint {
@@ -34,6 +41,6 @@ struct VolumePoint {
 }
 
 @vertex
-fn volume_vertex(@location(0) vertex: vec4f, @builtin(instance_index) volume: u32) -> VolumePoint {
-    return VolumePoint(volume_position(vertex, volume));
+fn volume_vertex(@location(0) vertex: vec4f, @builtin(instance_index) first: u32) -> VolumePoint {
+    return VolumePoint(volume_position(vertex, volume_of(vertex, first)));
 }

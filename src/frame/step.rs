@@ -19,6 +19,17 @@ pub struct Step {
     pub action: Action,
 }
 
+impl Step {
+    /// The pixels it draws in; `None` where it clears.
+    #[must_use]
+    pub fn scissor(&self) -> Option<[u32; 4]> {
+        match &self.action {
+            Action::Draw(draw) => Some(draw.scissor),
+            Action::Clear(_) => None,
+        }
+    }
+}
+
 /// What a step does.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -208,7 +219,7 @@ pub enum Program {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DrawSet {
-    /// One triangle over everything.
+    /// Everything on screen.
     FullScreen,
     /// Mesh primitives.
     Surfaces(Vec<Surface>),

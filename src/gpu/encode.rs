@@ -1,15 +1,16 @@
 //! Walks the plan and records it: neighbours with the same attachments share one render pass.
 
 use super::context::Context;
-use super::frame_buffers::{DRAW_STRIDE, FrameBuffers};
+use super::frame_buffers::{DRAW_STRIDE, FrameBuffers, range_of};
 use super::labels::Labels;
 use super::lines::Lines;
+use super::merged::Run;
 use super::pipelines::{Key, Pipelines, Reads, reads};
 use super::scene_buffers::SceneBuffers;
+use super::shaders::{BANDS, Vertices, entry_of};
 use super::targets::{Mean, Targets};
 use super::timing::Timing;
-use crate::frame::{Action, Clear, Draw, DrawSet, FramePlan, Part, Surface, Target, VolumePart};
-use crate::geometry::volume::VolumeIndices;
+use crate::frame::{Action, Clear, Draw, DrawSet, FramePlan, Surface, Target, VolumePart};
 use crate::scene::Scene;
 
 /// What a frame is drawn with and into.
@@ -238,11 +239,12 @@ impl Encode<'_> {
                     (Reads::Counts | Reads::CountsEach, Some(counts), _) => pass.set_bind_group(1, &counts.read, &[]),
                     _ => {}
                 }
-                pass.draw(0..3, 0..1);
+                let bands = entry_of(draw.program).vertices == Vertices::Bands;
+                pass.draw(if bands { 0..BANDS * 6 } else { 0..3 }, 0..1);
                 drawn.draws += 1;
             }
             DrawSet::Surfaces(surfaces) => self.record_surfaces(pass, scene, surfaces, drawn),
-            DrawSet::Volumes(parts) => self.record_volumes(pass, plan, scene, parts, drawn),
+            DrawSet::Volumes(parts) => self.record_volumes(pass, plan, scene, (number, parts), drawn),
             DrawSet::Enclosure(_) => self.record_enclosure(pass, number, drawn),
             DrawSet::Labels(_) => self.record_labels(pass, drawn),
             DrawSet::Strokes(_) => self.record_lines(pass, drawn),
@@ -254,7 +256,15 @@ impl Encode<'_> {
         let instances: Vec<_> = scene.instances().collect();
         let mut bound_instance = None;
         let mut bound_material = None;
-        for surface in surfaces {
+        let mesh_of = |surface: &Surface| instances[surface.instance].1.mesh;
+        let at_rest = |surface: &Surface| self.buffers.deformed[surface.instance].is_none();
+        // What follows each other and differs by its instance's number alone is one call.
+        let joins = |a: &Surface, b: &Surface| {
+            let next = Surface { instance: a.instance + 1, ..*a };
+            next == *b && mesh_of(a) == mesh_of(b) && at_rest(a) && at_rest(b)
+        };
+        for run in surfaces.chunk_by(joins) {
+            let surface = run[0];
             let (_, node, mesh) = instances[surface.instance];
             let primitive = mesh.primitives[surface.primitive];
             if bound_instance != Some(surface.instance) {
@@ -270,9 +280,10 @@ impl Encode<'_> {
                 bound_material = Some(primitive.material);
             }
             let object = u32::try_from(surface.instance).unwrap_or(0);
-            pass.draw_indexed(primitive.first_index..primitive.first_index + primitive.index_count, 0, object..object + 1);
+            let count = u32::try_from(run.len()).unwrap_or(1);
+            pass.draw_indexed(primitive.first_index..primitive.first_index + primitive.index_count, 0, object..object + count);
             drawn.draws += 1;
-            drawn.triangles += u64::from(primitive.index_count / 3);
+            drawn.triangles += u64::from(primitive.index_count / 3) * u64::from(count);
         }
     }
 
@@ -281,14 +292,23 @@ impl Encode<'_> {
         pass: &mut wgpu::RenderPass<'_>,
         plan: &FramePlan,
         scene: &Scene,
-        parts: &[VolumePart],
+        (number, parts): (usize, &[VolumePart]),
         drawn: &mut Drawn,
     ) {
         let (Some(long), Some(short)) = (self.frame.indices.buffer(), self.frame.short_indices.buffer()) else { return };
         let instances: Vec<_> = scene.instances().collect();
         let mut bound = None;
         let mut bound_format = None;
-        for part in parts {
+        let mut merged_to = 0;
+        for (at, part) in parts.iter().enumerate() {
+            if let Some(run) = self.frame.merged.run(number, at) {
+                self.record_merged(pass, run, drawn);
+                merged_to = run.parts.end;
+                (bound, bound_format) = (None, None);
+            }
+            if at < merged_to {
+                continue;
+            }
             let (indices, format) = &self.frame.volume_indices[part.volume];
             let range = range_of(indices, part.part);
             if range.is_empty() {
@@ -317,6 +337,22 @@ impl Encode<'_> {
             drawn.triangles += triangles;
             drawn.volume_triangles += triangles;
         }
+    }
+
+    fn record_merged(&self, pass: &mut wgpu::RenderPass<'_>, run: &Run, drawn: &mut Drawn) {
+        let merged = &self.frame.merged;
+        let (Some(vertices), Some(indices)) = (merged.vertices.buffer(), merged.indices.buffer()) else { return };
+        if run.indices.is_empty() {
+            return;
+        }
+        pass.set_vertex_buffer(0, vertices.slice(..));
+        pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+        // The vertices are tagged with their volumes' numbers from 0.
+        pass.draw_indexed(run.indices.clone(), 0, 0..1);
+        let triangles = u64::from((run.indices.end - run.indices.start) / 3);
+        drawn.draws += 1;
+        drawn.triangles += triangles;
+        drawn.volume_triangles += triangles;
     }
 
     fn record_enclosure(&self, pass: &mut wgpu::RenderPass<'_>, number: usize, drawn: &mut Drawn) {
@@ -366,14 +402,4 @@ impl Encode<'_> {
 enum Bound {
     Instance(usize),
     Cutouts,
-}
-
-fn range_of(indices: &VolumeIndices, part: Part) -> std::ops::Range<u32> {
-    match part {
-        Part::Sides => indices.sides.clone(),
-        Part::SidesTurned => indices.sides_turned.clone(),
-        Part::LightCapKept => indices.light_cap_kept.clone(),
-        Part::LightCapTurned => indices.light_cap_turned.clone(),
-        Part::DarkCap => indices.dark_cap.clone(),
-    }
 }

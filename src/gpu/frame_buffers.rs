@@ -5,10 +5,11 @@ use glam::{DAffine3, DMat3, DMat4, DVec4, Mat4, Vec3, Vec4};
 
 use super::context::{Context, GpuError};
 use super::cutouts::{CutoutScratch, thrown};
+use super::merged::Merged;
 use super::scene_buffers::SceneBuffers;
 use super::slides::Slides;
 use super::types::{Draw, Frame, Light, Object, Volume};
-use crate::frame::{DrawSet, FramePlan, Method, Part};
+use crate::frame::{DrawSet, FramePlan, Method, Part, VolumePart};
 use crate::geometry::ending::NEVER_ENDS;
 use crate::geometry::light_in_object;
 use crate::geometry::volume::{Caster, VolumeIndex as _, VolumeIndices, VolumeParts, VolumeScratch};
@@ -40,6 +41,8 @@ pub struct FrameBuffers {
     pub enclosure_vertices: Growing,
     /// Where those of a draw, by its number among the plan's draws, stand among them.
     pub enclosures: Vec<(usize, std::ops::Range<u32>)>,
+    /// Volumes of small casters, once more.
+    pub merged: Merged,
     bind_group: Option<wgpu::BindGroup>,
     scratch: Scratch,
 }
@@ -115,6 +118,7 @@ impl Default for FrameBuffers {
             first_vertices: Vec::new(),
             enclosure_vertices: Growing::new("solids about lights", wgpu::BufferUsages::VERTEX),
             enclosures: Vec::new(),
+            merged: Merged::default(),
             bind_group: None,
             scratch: Scratch::default(),
         }
@@ -148,6 +152,7 @@ impl FrameBuffers {
         pose: &Pose,
     ) -> Result<(), GpuError> {
         self.build_volumes(buffers, plan, scene, pose);
+        self.merge_volumes(buffers, plan, scene);
         let longest = (self.scratch.indices.len() * 4).max(self.scratch.short_indices.len() * 2);
         let (bytes, largest) = (longest as u64, context.device.limits().max_buffer_size);
         if bytes > largest {
@@ -175,6 +180,7 @@ impl FrameBuffers {
         grown |= self.lights.write(context, cast_slice(&scratch.lights), size_of::<Light>());
         grown |= self.volumes.write(context, cast_slice(&scratch.volumes), size_of::<Volume>());
         grown |= self.draws.write(context, &scratch.draws, DRAW_STRIDE as usize);
+        self.merged.write(context);
         self.indices.write(context, cast_slice(&scratch.indices), 4);
         self.cutout_vertices.write(context, cast_slice(&scratch.cutouts.vertices), 16);
         self.enclosure_vertices.write(context, cast_slice(&scratch.enclosures), 16);
@@ -288,6 +294,32 @@ impl FrameBuffers {
         }
     }
 
+    /// What is small and drawn by the same step is put together.
+    fn merge_volumes(&mut self, buffers: &SceneBuffers, plan: &FramePlan, scene: &Scene) {
+        let instances: Vec<_> = scene.instances().collect();
+        let Self { merged, volume_indices, first_vertices, scratch, .. } = self;
+        let welded = |volume: usize| {
+            let instance = plan.volumes[volume].instance;
+            let vertices = buffers.vertices(instance, instances[instance].1.mesh.unwrap_or(0));
+            first_vertices[volume].is_none().then_some(vertices.welded.as_slice())
+        };
+        let each_index = |part: VolumePart, each: &mut dyn FnMut(u32)| {
+            let (indices, format) = &volume_indices[part.volume];
+            let range = range_of(indices, part.part);
+            let range = range.start as usize..range.end as usize;
+            match format {
+                wgpu::IndexFormat::Uint16 => scratch.short_indices[range].iter().for_each(|&index| each(index.into())),
+                wgpu::IndexFormat::Uint32 => scratch.indices[range].iter().for_each(|&index| each(index)),
+            }
+        };
+        merged.clear(plan.volumes.len());
+        for (number, (_, draw)) in plan.draws().enumerate() {
+            if let DrawSet::Volumes(parts) = &draw.set {
+                merged.append(number, parts, welded, each_index);
+            }
+        }
+    }
+
     fn build_enclosures(&mut self, plan: &FramePlan) {
         let vertices = &mut self.scratch.enclosures;
         vertices.clear();
@@ -329,6 +361,18 @@ impl FrameBuffers {
         let short = short.map(|(volume, _)| u64::from(volume.triangles()) * 3).sum::<u64>();
         let long = self.scratch.indices.len() as u64;
         [short + long, short * 2 + long * 4]
+    }
+}
+
+/// Where a part of a volume stands among the indices.
+#[must_use]
+pub fn range_of(indices: &VolumeIndices, part: Part) -> std::ops::Range<u32> {
+    match part {
+        Part::Sides => indices.sides.clone(),
+        Part::SidesTurned => indices.sides_turned.clone(),
+        Part::LightCapKept => indices.light_cap_kept.clone(),
+        Part::LightCapTurned => indices.light_cap_turned.clone(),
+        Part::DarkCap => indices.dark_cap.clone(),
     }
 }
 

@@ -2,7 +2,6 @@
 //! fade within a pixel.
 
 use bytemuck::cast_slice;
-use egui::ecolor::linear_from_gamma;
 use egui::epaint::{Mesh, PathShape, PathStroke, TessellationOptions, Tessellator};
 use egui::{Color32, Pos2};
 
@@ -49,7 +48,7 @@ impl Lines {
             let mut mesh = Mesh::default();
             tessellator.tessellate_path(&shape, &mut mesh);
             let first = u32::try_from(vertices.len()).unwrap_or(0);
-            let [r, g, b] = [0, 1, 2].map(|channel| linear_from_gamma(color[channel]));
+            let [r, g, b, _] = color;
             // Shapes are white: what the tessellator says of a vertex is how much of it there is.
             vertices.extend(mesh.vertices.iter().map(|vertex| {
                 let alpha = color[3] * f32::from(vertex.color.a()) / 255.0;

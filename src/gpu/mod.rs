@@ -9,6 +9,7 @@ mod encode;
 mod frame_buffers;
 mod labels;
 mod lines;
+mod merged;
 pub mod pipelines;
 pub mod readback;
 mod scene_buffers;

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::context::{Context, GpuError, MEAN_FORMAT, color_format};
-use super::shaders::{Library, Override, Vertices, entry_of};
+use super::shaders::{BANDS, Library, Override, Vertices, entry_of};
 use super::types::{Attributes, Draw, Frame, LabelVertex, Light, LineVertex, Material, Object, Volume};
 use crate::frame::state::{Blend, Compare, Cull, DepthBias, NearPlane, State, Winding};
 use crate::frame::stencil::{StencilFace, StencilOp};
@@ -319,6 +319,7 @@ fn constants(overrides: &[Override], Key { look, state, .. }: &Key) -> Vec<(&'st
             };
             ("LIGHT_KIND", kind)
         }
+        Override::Bands => ("BANDS", f64::from(BANDS)),
         Override::Finished => ("FINISHED", f64::from(u8::from(look.finished))),
     };
     overrides.iter().map(|&it| value(it)).collect()
@@ -365,7 +366,7 @@ fn vertex_buffers(vertices: Vertices) -> &'static [Option<wgpu::VertexBufferLayo
     match vertices {
         Vertices::Lines => &[Some(LINES)],
         Vertices::Labels => &[Some(LABELS)],
-        Vertices::None => &[],
+        Vertices::None | Vertices::Bands => &[],
         Vertices::Surface => &[Some(POSITION), Some(ATTRIBUTES)],
         Vertices::Positions | Vertices::Edges => &[Some(POSITION)],
         Vertices::Volume => &[Some(VOLUME)],

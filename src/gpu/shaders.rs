@@ -41,6 +41,8 @@ const EMBEDDED: &[(&str, &str)] = &[
 pub enum Vertices {
     /// None: the shader makes them.
     None,
+    /// None: the shader makes [`BANDS`] of six.
+    Bands,
     /// Positions and attributes of a mesh.
     Surface,
     /// Positions of a mesh.
@@ -54,6 +56,9 @@ pub enum Vertices {
     /// Corners of lines and areas.
     Lines,
 }
+
+/// How many bands the background is drawn in.
+pub const BANDS: u32 = 32;
 
 /// One program's shaders.
 #[derive(Debug, Clone, Copy)]
@@ -83,6 +88,8 @@ pub enum Override {
     BothSides,
     /// `LIGHT_KIND`: the shape of the one light.
     LightKind,
+    /// `BANDS`: how many there are.
+    Bands,
     /// `FINISHED`: the colour is the picture's own.
     Finished,
 }
@@ -122,7 +129,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::Gather, "output.wgsl", "full_screen_vertex", "gather", Vertices::None, &[]),
     entry(Program::StencilColors, "output.wgsl", "full_screen_vertex", "stencil_colors", Vertices::None, &[]),
     entry(Program::ToneMap, "output.wgsl", "backdrop_vertex", "tone_map", Vertices::None, &[]),
-    entry(Program::Background, "output.wgsl", "backdrop_vertex", "background", Vertices::None, &[]),
+    entry(Program::Background, "output.wgsl", "band_vertex", "background", Vertices::Bands, &[Override::Bands]),
     entry(Program::Copy, "output.wgsl", "full_screen_vertex", "copy", Vertices::None, &[]),
     entry(Program::VolumeFronts, "volume.wgsl", "volume_vertex", "volume_count_fronts", Vertices::Volume, &[]),
     entry(Program::VolumeBacks, "volume.wgsl", "volume_vertex", "volume_count_backs", Vertices::Volume, &[]),

@@ -124,7 +124,7 @@ pub struct LabelVertex {
 pub struct LineVertex {
     /// Pixels from the upper left.
     pub at: [f32; 2],
-    /// Linear, premultiplied.
+    /// As the picture stores it, premultiplied.
     pub color: [f32; 4],
 }
 

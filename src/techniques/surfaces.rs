@@ -35,11 +35,13 @@ struct Kind {
 #[must_use]
 pub fn opaque_groups(scene: &Scene, pose: &Pose, view: &View, size: [u32; 2], texturing: Texturing) -> Vec<SurfaceGroup> {
     let clip_from_world = view.camera.clip_from_world();
-    let seen: Vec<_> = scene
+    // The radius of each instance's bounds; `None` where it is out of view.
+    let seen: Vec<Option<f32>> = scene
         .instances()
         .map(|(node, ..)| {
             let bounds = pose.world_bounds(scene, node);
-            screen_rect(bounds.center().as_dvec3(), f64::from(bounds.radius()), &clip_from_world, size).is_some()
+            let (center, radius) = (bounds.center().as_dvec3(), bounds.radius());
+            screen_rect(center, f64::from(radius), &clip_from_world, size).map(|_| radius)
         })
         .collect();
     let mut groups: Vec<SurfaceGroup> = Vec::new();
@@ -49,13 +51,21 @@ pub fn opaque_groups(scene: &Scene, pose: &Pose, view: &View, size: [u32; 2], te
         } else {
             kind.textured_last = false;
         }
-        if alpha != AlphaMode::Blend && seen[surface.instance] {
+        if alpha != AlphaMode::Blend && seen[surface.instance].is_some() {
             match groups.iter_mut().find(|group| group.kind == kind) {
                 Some(group) => group.surfaces.push(surface),
                 None => groups.push(SurfaceGroup { kind, surfaces: vec![surface] }),
             }
         }
     }
+    // Floors and walls come last, so that what stands before them hides them; all else stays in the scene's
+    // order, in which instances of one mesh mostly follow each other and are drawn by one call.
+    let largest = seen.iter().copied().flatten().fold(0.0, f32::max);
+    let wide = |surface: &Surface| seen[surface.instance].is_some_and(|radius| radius > largest / 2.0);
+    for group in &mut groups {
+        group.surfaces.sort_by_key(wide);
+    }
+    groups.sort_by_key(|group| group.surfaces.iter().any(wide));
     groups
 }
 
@@ -116,9 +126,10 @@ pub fn ambient(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
     groups.iter().map(|group| step(format!("ambient{}", group.words()), why, draw(group))).collect()
 }
 
-/// Depth alone, of every surface.
+/// Depth alone, of every surface that does not lay it when it is [`finished`]: those do where nothing is
+/// counted (not `shadowed`) and nothing masked.
 #[must_use]
-pub fn depth(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
+pub fn depth(groups: &[SurfaceGroup], shadowed: bool, scissor: [u32; 4]) -> Vec<Step> {
     let draw = |group: &SurfaceGroup| Draw {
         program: if group.kind.masked { Program::DepthMasked } else { Program::Depth },
         look: Look { textured: group.kind.masked && group.kind.look.textured, ..Look::default() },
@@ -138,7 +149,8 @@ pub fn depth(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
         set: DrawSet::Surfaces(group.surfaces.clone()),
     };
     let why = "Lays the depth that all later steps are tested against; colour waits until the count is known.";
-    groups.iter().map(|group| step(format!("depth{}", group.words()), why, draw(group))).collect()
+    let first = groups.iter().filter(|group| !group.lays_depth_when_finished(shadowed));
+    first.map(|group| step(format!("depth{}", group.words()), why, draw(group))).collect()
 }
 
 /// Where and to what a frame's only light is added.
@@ -150,8 +162,17 @@ pub struct OnlyLight<'a> {
     pub shape: LightShape,
     /// Which instances it may reach.
     pub reached: &'a [bool],
-    /// How the stencil tells lit from shadow; `None` where no surface is in shadow.
-    pub budget: Option<BitBudget>,
+    /// What may be in shadow; `None` where no surface is.
+    pub dark: Option<Dark>,
+}
+
+/// Where the stencil tells lit from shadow.
+#[derive(Debug, Clone, Copy)]
+pub struct Dark {
+    /// By which bits.
+    pub budget: BitBudget,
+    /// Pixels; beyond them nothing is in shadow.
+    pub scissor: [u32; 4],
 }
 
 /// Every surface in its final colour, drawn once: in ambient light and `only` light where its count
@@ -159,8 +180,10 @@ pub struct OnlyLight<'a> {
 #[must_use]
 pub fn finished(groups: &[SurfaceGroup], only: Option<&OnlyLight<'_>>, scissor: [u32; 4]) -> Vec<Step> {
     let mut steps = Vec::new();
+    let dark = only.and_then(|only| only.dark);
     for group in groups {
-        let mut draw = |words: &str, why: &str, surfaces: &[Surface], lit: Option<&OnlyLight<'_>>, stencil| {
+        let depth = if group.lays_depth_when_finished(dark.is_some()) { Depth::LAY } else { Depth::SAME_SURFACE };
+        let mut draw = |words: &str, why: &str, surfaces: &[Surface], lit: Option<&OnlyLight<'_>>, stencil, scissor| {
             if surfaces.is_empty() {
                 return;
             }
@@ -169,7 +192,7 @@ pub fn finished(groups: &[SurfaceGroup], only: Option<&OnlyLight<'_>>, scissor: 
                 program: if lit.is_some() { Program::Lit } else { Program::Ambient },
                 look,
                 target: Target::Direct,
-                state: group.again(Blend::Replace, stencil),
+                state: State { depth, ..group.again(Blend::Replace, stencil) },
                 stencil_reference: 0,
                 scissor,
                 light: lit.map(|lit| lit.light),
@@ -182,15 +205,16 @@ pub fn finished(groups: &[SurfaceGroup], only: Option<&OnlyLight<'_>>, scissor: 
             group.surfaces.iter().copied().partition(|surface| only.is_some_and(|only| only.reached[surface.instance]));
         if let Some(only) = only {
             let label = |words: &str| format!("light {}: {words}", only.light);
-            let lit = only.budget.map_or(StencilState::IGNORE, StencilState::count_equals);
+            let lit = dark.map_or(StencilState::IGNORE, |dark| StencilState::count_equals(dark.budget));
             let why = "Ambient light and this one, through the tone curve, where no volume holds the surface.";
-            draw(&label("lit"), why, &near, Some(only), lit);
-            if let Some(budget) = only.budget {
+            draw(&label("lit"), why, &near, Some(only), lit, scissor);
+            if let Some(Dark { budget, scissor }) = dark {
                 let why = "Ambient light alone, through the tone curve, where a volume holds the surface.";
-                draw(&label("shadow"), why, &near, None, StencilState::count_differs(budget));
+                draw(&label("shadow"), why, &near, None, StencilState::count_differs(budget), scissor);
             }
         }
-        draw("ambient", "Ambient light alone, through the tone curve: no light reaches here.", &far, None, StencilState::IGNORE);
+        let why = "Ambient light alone, through the tone curve: no light reaches here.";
+        draw("ambient", why, &far, None, StencilState::IGNORE, scissor);
     }
     steps
 }
@@ -367,6 +391,12 @@ pub fn transparent(scene: &Scene, pose: &Pose, view: &View, scissor: [u32; 4]) -
 }
 
 impl SurfaceGroup {
+    /// Whether depth is laid by drawing the surfaces in their final colour: not before the count is known,
+    /// and not where fragments are masked away, which only the programs that lay depth first do.
+    fn lays_depth_when_finished(&self, shadowed: bool) -> bool {
+        !shadowed && !self.kind.masked
+    }
+
     /// Drawn again over its own depth.
     fn again(&self, blend: Blend, stencil: StencilState) -> State {
         State {
