@@ -388,6 +388,8 @@ impl Shell {
 
     /// Draws what is to be verified; a thread of its own casts the rays.
     fn verify(&mut self) {
+        // What is found is true of this moment, and shown as long as it lasts.
+        self.session.preferences.clock.playing = false;
         let wake = self.waker(Wake::Verified);
         let Some(screen) = self.live.as_mut().and_then(|live| live.screen.as_mut()) else { return };
         let Some(loaded) = &self.session.loaded else { return };

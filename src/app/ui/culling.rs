@@ -48,7 +48,9 @@ fn table(ui: &mut Ui, desk: &Desk<'_>, view: &View<'_>) {
     let name = scene.lights.get(light).map_or("", |light| light.name.as_str());
     explain(ui, format!("Light {light}, {name}: {} casters, {dropped} of them left out.", of_light().count()));
     let nodes: Vec<_> = scene.instances().map(|(_, node, _)| node.name.as_str()).collect();
-    egui::ScrollArea::vertical().id_salt("casters").max_height(220.0).auto_shrink([false, true]).show(ui, |ui| {
+    // Within the panel's own scrolling it would shrink to the least height otherwise.
+    let table = egui::ScrollArea::vertical().id_salt("casters").max_height(220.0).min_scrolled_height(220.0);
+    table.auto_shrink([false, true]).show(ui, |ui| {
         egui::Grid::new("casters").num_columns(3).striped(true).spacing(vec2(8.0, 2.0)).show(ui, |ui| {
             for volume in of_light() {
                 row(ui, nodes.get(volume.instance).copied().unwrap_or(""), volume);

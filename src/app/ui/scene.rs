@@ -53,7 +53,7 @@ pub fn scene(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_
         egui::CollapsingHeader::new("Mesh report").id_salt("doctor").show(ui, |ui| {
             explain(ui, "Whether each mesh is closed, and so how its shadow volume is built.");
             card(ui, |ui| {
-                egui::ScrollArea::both().id_salt("doctor").max_height(220.0).show(ui, |ui| {
+                egui::ScrollArea::both().id_salt("doctor").max_height(220.0).min_scrolled_height(220.0).show(ui, |ui| {
                     ui.add(egui::Label::new(RichText::new(view.doctor).monospace().size(11.0)).extend());
                 });
             });

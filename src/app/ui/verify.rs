@@ -13,7 +13,7 @@ pub fn verify(ui: &mut Ui, desk: &Desk<'_>, view: &View<'_>, actions: &mut Vec<A
         ui.add(egui::ProgressBar::new(share).text("casting rays"));
         return;
     }
-    let tip = "Draws each light's shadow by this technique, and holds every pixel against exact rays; wrong ones are \
+    let tip = "Stops the time, draws each light's shadow by this technique, and holds every pixel against exact rays; wrong ones are \
                framed in the picture: red drawn lit, blue drawn dark";
     if ui.add_enabled(lights, egui::Button::new("Verify this view")).on_hover_text(tip).clicked() {
         actions.push(Action::Verify);
