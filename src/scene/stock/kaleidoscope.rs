@@ -1,6 +1,6 @@
 //! A kaleidoscope: three mirrors in a triangle, bright toys at its end, and the eye inside. Every mirror shows
-//! the two others, which is K's worst case (section 3); but a picture of 60 degrees leaves most paths nothing to
-//! show, and the tiles of the plane are all there is.
+//! the two others, which is K's worst case (section 3); but the images tile the plane about the eye, and only
+//! those that lie in the picture are views: close to the toys few, down the length of the tube many.
 
 use std::f64::consts::TAU;
 
@@ -47,8 +47,8 @@ pub(super) fn build() -> Result<Scene, ImportError> {
     });
     let glint = c.group("glint", Some(hub), at(0.17, 0.12, 0.62));
     c.light(glint, LightKind::Point, [0.35, 0.55, 1.0], 0.8, 3.0);
+    c.camera("close", [-0.05, 0.06, -0.7], [0.02, 0.02, end], 50.0);
     c.camera("down the tube", [0.03, 0.05, 0.2], [0.0, 0.02, end], 64.0);
-    c.camera("close", [-0.05, 0.04, -0.65], [0.0, 0.0, end], 70.0);
     Ok(c.finish())
 }
 

@@ -11,6 +11,7 @@ use super::TABLE;
 use super::compose::{MODELS, STRIDE, STRIDE_SECONDS};
 use crate::frame::Camera;
 use crate::geometry::planar::height;
+use crate::geometry::sight::worst_case;
 use crate::geometry::{Body, Sight};
 use crate::scene::pose::pose;
 use crate::scene::{AnimationChoice, LightKind, Pose, PosedMirror, Property, Scene};
@@ -284,4 +285,38 @@ fn planted_feet_do_not_slide() {
     let pace = STRIDE / STRIDE_SECONDS;
     assert!(checked > 40, "a foot is on the ground nearly always, not {checked} times of 58");
     assert!(worst < 0.25 * pace, "a planted foot slides at {worst:.2} m/s, walking at {pace:.2} m/s");
+}
+
+/// How many views a camera needs, the eye's own among them, up to so many bounces.
+fn views(sight: &Sight, mirrors: &[PosedMirror], through: Option<usize>, bounces: u32) -> usize {
+    let seen = |(index, mirror): (usize, &PosedMirror)| {
+        let found = sight.reflected(&mirror.triangles, mirror.plane, false)?;
+        Some(views(&found.sight, mirrors, Some(index), bounces - 1))
+    };
+    let others = mirrors.iter().enumerate().filter(|(index, _)| bounces > 0 && through != Some(*index));
+    1 + others.filter_map(seen).sum::<usize>()
+}
+
+/// At four bounces, from the first camera; the kaleidoscope's at most a fifth of K's worst case.
+#[test]
+fn few_of_the_views_there_could_be_are_needed() {
+    for (name, most, worst) in [
+        ("gallery", 13, 161),
+        ("barbershop", 5, 9),
+        ("corridor", 3, 9),
+        ("terraces", 3, 9),
+        ("figure3", 2, 2),
+        ("kaleidoscope", 9, 46),
+    ] {
+        let scene = super::build(name).unwrap().unwrap();
+        let pose = posed(&scene, 0.0);
+        let mirrors: Vec<_> = scene.mirrors.iter().map(|mirror| mirror.posed(&scene, &pose).unwrap()).collect();
+        assert_eq!(worst_case(mirrors.len(), 4), worst, "{name}");
+        let settings = Settings { size: [1280, 720], ..Settings::default() };
+        let camera = Camera::choose(&settings, &scene, &pose).unwrap();
+        let eye = Sight::of_eye(camera.eye, camera.clip_from_world(), settings.size);
+        let needed = views(&eye, &mirrors, None, 4);
+        assert!(needed <= most && needed > mirrors.len().min(1), "{name}: {needed} views");
+        assert_eq!(views(&eye, &mirrors, None, 0), 1, "{name}: the eye's own");
+    }
 }
