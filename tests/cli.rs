@@ -383,6 +383,10 @@ fn verify_says_what_is_wrong_and_ends_with_it() {
     assert!(json["wrong_views"][0]["command"].as_str().unwrap().starts_with("obscura render eye-in-shadow"));
     assert_eq!(json["seed"], 1);
 
+    // A far plane spoils what is counted from infinity, and whoever asked for one is told so.
+    let text = good(here, &["verify", "cubes", "--size", "96x54", "--technique", "z-fail", "--far", "18"]);
+    assert!(text.contains("known to fail") && text.contains("no technique claims to be exact here: the far plane"), "{text}");
+
     let usage = run(here, &["verify", "cubes", "--show", "stencil"]);
     assert_eq!(usage.status.code(), Some(2));
     bad(here, &["verify", "cubes", "--technique", "guess"]);

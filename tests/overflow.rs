@@ -79,7 +79,7 @@ fn three_hundred_volumes_are_counted_in_batches_or_wide_and_never_wrong() {
     for one_mesh in [false, true] {
         let (scene, settings) = stacked(one_mesh);
         stage.set_scene(&scene);
-        for technique in [Technique::ZFail, Technique::ExactZPass, Technique::Wide] {
+        for technique in [Technique::ZFail, Technique::ExactZPass, Technique::ZPlus, Technique::Wide] {
             let shot = assert_exact(&mut stage, &scene, &Settings { technique, ..settings.clone() });
             let note = note(&shot);
             match technique {

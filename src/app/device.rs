@@ -14,6 +14,7 @@ use winit::window::Window;
 
 use crate::frame::FramePlan;
 use crate::gpu::readback::PICTURE_FORMAT;
+use crate::gpu::shaders::Library;
 use crate::gpu::{Context, FrameStats, GpuError, Renderer};
 use crate::scene::{Pose, Scene};
 
@@ -37,7 +38,7 @@ pub struct Screen {
     copies: bool,
     renderer: Renderer,
     /// The folder of shaders did not compile when the renderer was made.
-    waiting_for: Option<PathBuf>,
+    waiting_for: Option<(PathBuf, Library)>,
     /// The device.
     pub context: Context,
     window: Arc<Window>,
@@ -73,7 +74,7 @@ impl Screen {
             }
             renderer => renderer?,
         };
-        let waiting_for = shaders.filter(|_| error.is_some()).map(Path::to_path_buf);
+        let waiting_for = shaders.filter(|_| error.is_some()).map(|folder| (folder.to_path_buf(), Library::new(Some(folder))));
         let capabilities = surface.get_capabilities(&context.adapter);
         let mut config = surface
             .get_default_config(&context.adapter, 1, 1)
@@ -154,7 +155,10 @@ impl Screen {
     /// Looks whether shaders of the folder changed; `Err` says what is wrong with them. Where they
     /// were wrong from the start, `scene` goes to the renderer that they make.
     pub fn poll_shaders(&mut self, scene: Option<&Scene>) -> Option<Result<(), String>> {
-        let Some(folder) = &self.waiting_for else { return self.renderer.poll_shaders(&self.context) };
+        let Some((folder, files)) = &mut self.waiting_for else { return self.renderer.poll_shaders(&self.context) };
+        if !files.changed() {
+            return None;
+        }
         match Renderer::new(&self.context, Some(folder)) {
             Ok(renderer) => {
                 self.renderer = renderer;

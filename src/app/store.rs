@@ -84,9 +84,17 @@ pub struct Stored {
 }
 
 impl Stored {
-    /// What of it is kept: not what was asked for on one command line, nor a moment in time.
+    /// What of it is kept: not what was asked for on one command line, nor a moment in time, nor a failure that was
+    /// looked at: who starts the program again is not to find it wrong.
     fn lasting(settings: &Settings, preferences: &Preferences) -> Self {
-        let settings = Settings { adapter: None, shaders: None, time: 0.0, size: Settings::default().size, ..settings.clone() };
+        let settings = Settings {
+            failure: None,
+            adapter: None,
+            shaders: None,
+            time: 0.0,
+            size: Settings::default().size,
+            ..settings.clone()
+        };
         Self { settings, preferences: preferences.clone() }
     }
 
@@ -96,6 +104,7 @@ impl Stored {
         let settings = &mut self.settings;
         settings.size = defaults.size;
         settings.time = defaults.time;
+        settings.failure = None;
         // Each part is judged by itself, as the command line's are: one that was refused would keep the
         // program from starting until somebody found the file.
         let parts: [fn(&mut Settings, Settings); 7] = [
@@ -237,7 +246,7 @@ fn write(path: &Path, stored: &Stored) -> std::io::Result<()> {
 mod tests {
     #![allow(clippy::unwrap_used)] // a failed unwrap is a failed test
     use super::*;
-    use crate::settings::{CameraChoice, LightEdit, Technique};
+    use crate::settings::{CameraChoice, Failure, LightEdit, Technique};
     use glam::DVec3;
 
     fn store(folder: &Path) -> Store {
@@ -252,6 +261,7 @@ mod tests {
             camera: CameraChoice::Free { eye: DVec3::new(0.1, 2.0, 3.0), target: DVec3::ZERO },
             shaders: Some("once".into()),
             time: 7.0,
+            failure: Some(Failure::NoDarkCap),
             ..Settings::default()
         };
         settings.lights.insert(2, LightEdit { on: Some(false), ..LightEdit::default() });
@@ -260,7 +270,7 @@ mod tests {
         let (stored, note) = store(folder.path()).load();
         assert_eq!(note, None);
         assert_eq!(stored.preferences, preferences);
-        assert_eq!(stored.settings, Settings { shaders: None, time: 0.0, ..settings });
+        assert_eq!(stored.settings, Settings { shaders: None, time: 0.0, failure: None, ..settings });
         assert_eq!(std::fs::read_dir(folder.path().join("deep")).unwrap().count(), 1, "no temporary file stays");
     }
 

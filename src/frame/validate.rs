@@ -363,12 +363,12 @@ fn check_wide(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
             return Err("it counts another light's volume");
         }
         let light_cap = matches!(part.part, Part::LightCapKept | Part::LightCapTurned);
-        let everywhere = light_cap && volume.method == Method::ZFail;
+        let everywhere = (light_cap && volume.method == Method::ZFail) || part.part == Part::DarkCap;
         if !matches!(volume.method, Method::ZFail | Method::ZFailCompared) {
             return Err("wide counts are z-fail's");
         }
         if depth.compare != if everywhere { Compare::Always } else { Compare::LessEqual } {
-            return Err("wide counts take what is not nearer, and light caps whose surface is surely there");
+            return Err("wide counts take what is not nearer, dark caps, and light caps whose surface is surely there");
         }
         let turned = if part.part == Part::LightCapTurned { -1.0 } else { 1.0 };
         if draw.constant[0] != turned {

@@ -37,6 +37,8 @@ pub struct Report {
     pub eyes: BTreeMap<Place, usize>,
     /// How many of the views have their eye in a shadow of their light.
     pub eyes_in_shadow: usize,
+    /// Why no technique claims to be exact, where none does.
+    pub spoiled_by: Option<&'static str>,
     /// The device.
     pub adapter: String,
     /// Technique by technique and light by light, all views together.
@@ -54,7 +56,7 @@ pub struct Report {
 pub struct LightRow {
     /// The technique.
     pub technique: Technique,
-    /// Whether it claims to be exact.
+    /// Whether it claims to be exact, with these settings.
     pub exact: bool,
     /// The light's index.
     pub light: usize,
@@ -259,6 +261,7 @@ pub fn verify(request: &VerifyRequest) -> Result<Report, HeadlessError> {
         seed: request.random.map(|(_, seed)| seed),
         eyes: BTreeMap::new(),
         eyes_in_shadow: 0,
+        spoiled_by: techniques::spoiled_by(&request.settings),
         adapter: context.capabilities().adapter.clone(),
         lights: Vec::new(),
         wrong_views: Vec::new(),
@@ -315,7 +318,7 @@ impl Report {
         self.trace_ms += view.trace_ms;
         self.eyes_in_shadow += usize::from(view.eye_in_shadow);
         for (technique, light, found) in &view.found {
-            let exact = techniques::row(*technique).exact;
+            let exact = techniques::row(*technique).exact && self.spoiled_by.is_none();
             let order = Technique::ALL.iter().position(|one| one == technique).unwrap_or(usize::MAX);
             let row = rows.entry((order, *light)).or_insert_with(|| LightRow {
                 technique: *technique,
@@ -383,6 +386,9 @@ impl Display for Report {
                 row.edges,
                 row.wrong
             )?;
+        }
+        if let Some(what) = self.spoiled_by {
+            writeln!(out, "no technique claims to be exact here: {what} spoils counting")?;
         }
         if !self.eyes.is_empty() {
             let count = |place| self.eyes.get(&place).copied().unwrap_or(0);

@@ -35,7 +35,7 @@ mod z_plus;
 
 use crate::frame::{Method, Reason};
 use crate::geometry::Outline;
-use crate::settings::Technique;
+use crate::settings::{Overflow, Settings, Technique};
 
 pub use counting::{Caster, Group};
 pub use overflow::TOO_MANY;
@@ -92,6 +92,19 @@ pub static TABLE: &[Row] = &[
     cutout::ROW,
     flattened::ROW,
 ];
+
+/// What these settings ask for that spoils counting on purpose, so that no technique claims to be exact; none
+/// where nothing does.
+#[must_use]
+pub fn spoiled_by(settings: &Settings) -> Option<&'static str> {
+    [
+        (settings.failure.is_some(), "a failure of the gallery"),
+        (settings.far.is_some(), "the far plane"),
+        (settings.counting.overflow == Overflow::Naive, "naive counting"),
+    ]
+    .into_iter()
+    .find_map(|(asked, words)| asked.then_some(words))
+}
 
 /// The row of a technique.
 #[must_use]

@@ -55,8 +55,8 @@ const WIDE: Group = Group {
 const GROUPS: &[Group] = &[
     Group {
         method: Method::ZFail,
-        parts: &[Part::Sides, Part::DarkCap],
-        label: "add sides and dark caps",
+        parts: &[Part::Sides],
+        label: "add sides",
         why: "Faces that are not nearer than the surface: back faces add one, front faces take one away.",
         ..WIDE
     },
@@ -79,8 +79,8 @@ const GROUPS: &[Group] = &[
     },
     Group {
         method: Method::ZFailCompared,
-        parts: &[Part::Sides, Part::DarkCap, Part::LightCapKept],
-        label: "add whole volumes",
+        parts: &[Part::Sides, Part::LightCapKept],
+        label: "add sides and light caps, compared",
         why: "The caster's surface may be missing from the depth buffer, so its light cap is compared with depth.",
         ..WIDE
     },
@@ -92,7 +92,20 @@ const GROUPS: &[Group] = &[
         constant: TURNED,
         ..WIDE
     },
+    dark_caps(Method::ZFail),
+    dark_caps(Method::ZFailCompared),
 ];
+
+const fn dark_caps(method: Method) -> Group {
+    Group {
+        method,
+        parts: &[Part::DarkCap],
+        label: "add dark caps",
+        why: "Every surface hides the dark cap: it counts everywhere.",
+        depth: Depth::IGNORE,
+        ..WIDE
+    }
+}
 
 /// Before the first volume: nothing is counted.
 pub(super) fn begin(light: usize) -> Step {

@@ -25,11 +25,15 @@ pub fn verify(ui: &mut Ui, desk: &Desk<'_>, view: &View<'_>, actions: &mut Vec<A
         ui.label(RichText::new(words).color(color));
     }
     let row = techniques::row(desk.settings.technique);
-    let words = match (finding.wrong.is_empty(), row.exact) {
+    let spoiled = techniques::spoiled_by(desk.settings);
+    let words = match (finding.wrong.is_empty(), row.exact && spoiled.is_none()) {
         (true, _) => "Every decided pixel is what exact rays say.",
         (false, true) => "This technique claims to be exact: please report this view.",
         (false, false) => "This technique is known to fail in such views.",
     };
+    let words = spoiled
+        .filter(|_| !finding.wrong.is_empty())
+        .map_or_else(|| words.to_owned(), |what| format!("Wrong on purpose: {what} spoils counting."));
     explain(ui, words);
 }
 
