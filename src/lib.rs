@@ -57,6 +57,13 @@
 //! unless counting starts there), the volumes are counted, and the light is added where the count is zero.
 //! Blended surfaces, overlays and the tone curve come last.
 //!
+//! A frame of one light at most, with nothing blended, goes a shorter way: the same count, but surfaces are
+//! drawn in their final colour straight into the picture. A light with a size stands in the pose as several
+//! points, each counted as a light of its own ([`scene::area`]); and a picture may be the mean of many frames,
+//! each with other points ([`frame::Gather`]).
+//!
+//! `--show cases`, `bounds`, `overflow` and the rest read what the plan decided; none decides by itself.
+//!
 //! # Spaces and depth
 //!
 //! Right-handed, +Y up, metres, radians, linear colour. A matrix is `target_from_source`, a point's name
@@ -97,8 +104,14 @@
 //! sRGB. Small casters' volumes are drawn by one call a step (`gpu::merged`), instances of one mesh by one.
 //!
 //! Which triangles face the light is decided once; silhouette, caps and the eye's count read that one
-//! decision, so a volume is closed whatever rounding does ([`geometry::silhouette`]). Z-fail and exact
-//! z-pass are two roads to one count, and a test holds them to the same stencil value in every pixel.
+//! decision, so a volume is closed whatever rounding does ([`geometry::silhouette`]). What the light sees
+//! edge-on goes with its neighbour towards the light, so that no side covers it at its own depth. Z-fail and
+//! exact z-pass are two roads to one count, and a test holds them to the same stencil value in every pixel.
+//!
+//! What is left is the rasteriser's own grid. It moves corners by up to half of a 256th of a pixel, and on
+//! lavapipe finds depths as if they were not moved: so close to an edge a steep triangle gets a depth from
+//! beyond its edge. One pixel in some ten million is wrong by that. Moving the corners to the grid in the
+//! vertex shader was tried: coverage and depth agree then, but facets tilt, and more is lost than won.
 //!
 //! A volume may be thrown from something else than its caster's silhouette: a planar cut-out, or the
 //! silhouette flattened into one ([`frame::Cutout`]). The shape of a volume and the way it is counted
