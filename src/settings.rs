@@ -219,11 +219,11 @@ named! {
         /// Heidmann's: counts volume faces before the surface.
         ZPass = "z-pass",
         /// Carmack's reverse: counts volume faces behind the surface, caps and all.
-        #[default]
         ZFail = "z-fail",
         /// Sides only, counted from the eye's own count, exact at the near plane.
         ExactZPass = "exact-z-pass",
         /// Each caster by the cheapest form that is exact for it.
+        #[default]
         Auto = "auto",
         /// Z-fail in a float target.
         Wide = "wide",

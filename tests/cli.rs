@@ -137,7 +137,7 @@ fn json_tells_the_plan_and_the_time() {
     let json = good(folder.path(), &[&["render", "eye-in-shadow", "--out", "a.png", "--json"], &SMALL[..]].concat());
     let report: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(report["size"], serde_json::json!([96, 54]));
-    assert_eq!(report["technique"], "z-fail");
+    assert_eq!(report["technique"], "auto");
     assert!(!report["adapter"].as_str().unwrap().is_empty());
     assert!(report["steps"].as_array().unwrap().iter().all(|step| step["label"].is_string() && step["why"].is_string()));
     let lights = report["volumes"].as_array().unwrap();

@@ -25,7 +25,7 @@ pub fn save(image: &image::RgbaImage, settings: &Settings, command: &str) -> Res
     }
 }
 
-/// `obscura-courtyard-z-fail-20261122-142530`: scene, technique, and the time in UTC.
+/// `obscura-courtyard-auto-20261122-142530`: scene, technique, and the time in UTC.
 fn name(settings: &Settings, since_epoch: Duration) -> String {
     let scene = match &settings.scene {
         SceneChoice::Stock(name) => name.clone(),
@@ -73,7 +73,7 @@ mod tests {
     fn names_say_what_and_when() {
         let settings = Settings { scene: SceneChoice::File("/a/my scene\n.glb".into()), ..Settings::default() };
         // 2024-02-29 12:34:56 UTC, by `date -u -d @1709210096`.
-        assert_eq!(name(&settings, Duration::from_secs(1_709_210_096)), "obscura-my_scene_-z-fail-20240229-123456");
+        assert_eq!(name(&settings, Duration::from_secs(1_709_210_096)), "obscura-my_scene_-auto-20240229-123456");
         assert_eq!(date(0), (1970, 1, 1));
         assert_eq!(date(11_016), (2000, 2, 29));
         assert_eq!(date(47_540), (2100, 2, 28));

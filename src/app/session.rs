@@ -402,7 +402,7 @@ mod tests {
     fn titles_hold_no_nul() {
         let mut session = session();
         session.settings.scene = SceneChoice::File("/a/b\0c.glb".into());
-        assert_eq!(session.title(), "Obscura \u{2014} b\u{fffd}c.glb \u{2014} z-fail");
+        assert_eq!(session.title(), "Obscura \u{2014} b\u{fffd}c.glb \u{2014} auto");
     }
 
     #[test]

@@ -48,10 +48,10 @@ impl Lines {
             let mut mesh = Mesh::default();
             tessellator.tessellate_path(&shape, &mut mesh);
             let first = u32::try_from(vertices.len()).unwrap_or(0);
-            let [r, g, b, _] = color;
             // Shapes are white: what the tessellator says of a vertex is how much of it there is.
             vertices.extend(mesh.vertices.iter().map(|vertex| {
-                let alpha = color[3] * f32::from(vertex.color.a()) / 255.0;
+                let [r, g, b, alpha] = color;
+                let alpha = alpha * f32::from(vertex.color.a()) / 255.0;
                 LineVertex { at: vertex.pos.into(), color: [r * alpha, g * alpha, b * alpha, alpha] }
             }));
             indices.extend(mesh.indices.iter().map(|index| first + index));

@@ -140,12 +140,12 @@ impl<'a> Map<'a> {
             let points = self.seen_through(pixels);
             (points.len() > 2).then_some(Stroke { points, closed: true, width, color, fill: Some(fill) })
         };
-        strokes.extend(area(whole, 1.0, white(0.5), white(0.04)));
+        strokes.extend(area(whole, 1.0, white(0.5), white(0.09)));
         if let (Some(scissor), Some(light)) =
             (scissor.filter(|scissor| *scissor != whole), self.scope.pose.lights.get(self.scope.light))
         {
             let color = hue_of(light);
-            strokes.extend(area(scissor, 2.0, with_alpha(color, 0.9), with_alpha(color, 0.10)));
+            strokes.extend(area(scissor, 2.0, with_alpha(color, 0.9), with_alpha(color, 0.16)));
         }
         let ends = eye.near_rectangle().map(|corner| self.end(corner));
         strokes.extend(ends.iter().filter_map(|end| self.line(eye.eye, *end, 2.0, white(1.0))));
@@ -164,7 +164,7 @@ impl<'a> Map<'a> {
         let circle = circle(light.position, DVec3::X * light.range, DVec3::Z * light.range);
         let (width, alpha) = if chosen { (2.5, 1.0) } else { (1.25, 0.55) };
         let color = hue_of(light);
-        let fill = chosen.then_some(with_alpha(color, 0.02));
+        let fill = chosen.then_some(with_alpha(color, 0.05));
         strokes.extend(self.ring(circle, width, with_alpha(color, alpha), fill));
     }
 
