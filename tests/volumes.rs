@@ -206,7 +206,7 @@ fn leaves_edge_on_triangles_behind(shape: &Shape, light: Vec4) -> (usize, usize)
     for triangle in shape.mesh.topology.triangles() {
         let [a, b, c] = triangle.map(corner);
         let normal = (b - a).cross(c - a).normalize();
-        if normal.dot(way(a).normalize()).abs() > 1e-6 {
+        if normal.dot(way(a).normalize()).abs() > 4e-6 {
             continue;
         }
         edge_on += 1;
