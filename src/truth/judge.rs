@@ -92,7 +92,7 @@ impl World {
     /// Whether a point is in shadow of `light`; on a border it may say either.
     #[must_use]
     pub fn shades(&self, point: DVec3, light: &PosedLight) -> bool {
-        let surface = Surface { points: [point; POINTS], displaced: [point; 2], faces: [u32::MAX; PLACES.len()] };
+        let surface = Surface { points: [point; POINTS], displaced: [point; 2], face: u32::MAX };
         let mut shadow = Shadow::new(self, light, &surface);
         self.tree.descend(&mut shadow, &mut Stack::new());
         light.shadows && shadow.counts[0] > 0
@@ -163,8 +163,8 @@ struct Surface {
     points: [DVec3; POINTS],
     /// The centre's point moved nearer, and farther.
     displaced: [DVec3; 2],
-    /// The triangles that were met.
-    faces: [u32; PLACES.len()],
+    /// The triangle that the centre meets.
+    face: u32,
 }
 
 impl<'a> Caster<'a> {
@@ -232,7 +232,7 @@ impl<'a> Caster<'a> {
             *point = at(*direction, met.depth);
         }
         let displaced = [-moved, moved].map(|by| points[0] + directions[0].normalize() * by);
-        Shown::Surface(Surface { points, displaced, faces: nearest.map(|met| met.face) })
+        Shown::Surface(Surface { points, displaced, face: nearest[0].face })
     }
 
     /// The nearest surface in each of some directions, all of them within `spread` of the first, metres for
@@ -377,8 +377,8 @@ struct Shadow<'a> {
     directions: [DVec3; RAYS],
     /// The rays of the surface moved nearer and farther.
     displaced: [usize; 2],
-    /// The triangles that are seen: a surface that is moved stays on the same side of them.
-    own: [u32; PLACES.len()],
+    /// The triangle that is seen: a surface that is moved stays on the same side of it.
+    own: u32,
     /// Rays run from the light, not to it.
     from_light: bool,
     counts: Counts,
@@ -390,7 +390,7 @@ struct Shadow<'a> {
 
 impl<'a> Shadow<'a> {
     fn new(world: &'a World, light: &PosedLight, surface: &Surface) -> Self {
-        let Surface { points, displaced: moved_points, faces } = surface;
+        let Surface { points, displaced: moved_points, face } = surface;
         let mut spread = DVec3::ZERO;
         for point in points.iter().chain(moved_points) {
             spread = spread.max((*point - points[0]).abs());
@@ -435,7 +435,7 @@ impl<'a> Shadow<'a> {
             apex_count,
             directions,
             displaced,
-            own: *faces,
+            own: *face,
             from_light,
             counts: [0; RAYS],
             counts_on: false,
@@ -479,7 +479,7 @@ impl Bundle for Shadow<'_> {
             }
             first = end;
         }
-        if self.own.contains(&index) {
+        if self.own == index {
             self.displaced.iter().for_each(|&ray| crossed[ray] = crossed[0]);
         }
         for (count, crossed) in self.counts.iter_mut().zip(crossed) {
