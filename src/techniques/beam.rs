@@ -13,7 +13,7 @@
 //!   *every* light, highlights and all, where two shadows overlap it is darker than in one, and a
 //!   lamp's shadow goes on darkening where its light has ended.
 //!
-//! The far ends are compared with depth, where [`super::z_fail`]'s dark cap is not: one that ends at 50 m may well lie
+//! The far ends are compared with depth, where z-fail's dark cap is not: one that ends at 50 m may well lie
 //! before a surface, and that it does is part of the look.
 //!
 //! B draws the quad after each polygon; here it is drawn after each caster, which for convex casters, B's

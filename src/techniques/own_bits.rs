@@ -11,7 +11,7 @@
 //! ```
 //!
 //! A bit of one's own leaves none to count in, and K does not say how many volumes may overlap in one. Turned over,
-//! it tells 1 from 0 and takes 2 for none. So the plan asks the bound on overlaps ([`super::overflow`]) for every
+//! it tells 1 from 0 and takes 2 for none. So the plan asks the bound on overlaps (`overflow.rs`) for every
 //! point, and takes the first that is exact:
 //!
 //! - **eight bits**, turned over by faces, where no two volumes of one point can lie over one pixel;
