@@ -15,8 +15,8 @@
 
 use glam::{DVec2, DVec3, DVec4, Vec3};
 
-use super::Topology;
-use super::silhouette::{contribution, plane};
+use super::silhouette::{EdgeOn, narrow, plane};
+use super::{Aabb, Topology};
 
 /// How often a caster's volume winds around the eye.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,6 +39,7 @@ pub fn holding_count(topology: &Topology, positions: &[Vec3], light: DVec4, eye:
     let welded = |vertex: u32| positions[topology.weld().vertex_of_welded[vertex as usize] as usize];
     let sides: Vec<u8> = topology.weld().vertex_of_welded.iter().map(|&vertex| sight.sides(positions[vertex as usize])).collect();
 
+    let seen = EdgeOn::new(&Aabb::from_points(positions.iter().copied()), light);
     let mut count = 0;
     for (triangle, &two_sided) in topology.triangles().iter().zip(topology.two_sided()) {
         // All corners beyond one and the same side of the segment: the usual case, settled here.
@@ -48,7 +49,8 @@ pub fn holding_count(topology: &Topology, positions: &[Vec3], light: DVec4, eye:
         }
         let corners = triangle.map(welded);
         // Whether one that is edge-on counts, its neighbours decide: where it matters, nobody knows here.
-        let counts = contribution(plane(corners), light, two_sided);
+        let plane = plane(corners);
+        let counts = seen.contribution(plane, narrow(plane, corners), two_sided);
         if counts == Some(0) {
             continue;
         }

@@ -10,7 +10,7 @@
 
 use glam::{DAffine3, DVec3, DVec4, Vec3, Vec4};
 
-use super::Topology;
+use super::{Aabb, Topology};
 
 /// A light of world space (a point with w = 1, or the direction towards it with w = 0) in the
 /// space of an object whose transform has an inverse. Directions come out unit.
@@ -33,22 +33,28 @@ pub struct Planes {
     y: Vec<f32>,
     z: Vec<f32>,
     offset: Vec<f32>,
+    /// Each triangle's height over its longest edge, of the normal's length: what it is edge-on by.
+    narrow: Vec<f32>,
+    bounds: Aabb,
 }
 
 impl Planes {
     /// The planes of `topology` posed as `welded` (one position a welded vertex). They are not
     /// normalised: only the sign is used. Reuses the arrays.
     pub fn build(&mut self, topology: &Topology, welded: &[Vec3]) {
-        for array in [&mut self.x, &mut self.y, &mut self.z, &mut self.offset] {
+        self.bounds = Aabb::from_points(welded.iter().copied());
+        for array in [&mut self.x, &mut self.y, &mut self.z, &mut self.offset, &mut self.narrow] {
             array.clear();
             array.reserve(topology.triangles().len());
         }
         for triangle in topology.triangles() {
-            let plane = plane(triangle.map(|vertex| welded[vertex as usize]));
+            let corners = triangle.map(|vertex| welded[vertex as usize]);
+            let plane = plane(corners);
             self.x.push(plane.x);
             self.y.push(plane.y);
             self.z.push(plane.z);
             self.offset.push(plane.w);
+            self.narrow.push(narrow(plane, corners));
         }
     }
 
@@ -78,25 +84,62 @@ pub(super) fn plane(corners: [Vec3; 3]) -> Vec4 {
     normal.extend(-normal.dot(a)).as_vec4()
 }
 
-/// The light's height over a triangle's plane, and the height up to which it is taken to lie in that
-/// plane: some hundred-thousandths of the coordinates it comes from. Neither is normalised. Closer than
-/// that, depths do not tell the plane from the sides of a volume that the light throws along it; and a
-/// silhouette that runs on the other side of such a triangle is off by no more than that share of its
-/// length.
-#[inline]
-fn height(plane: Vec4, light: Vec4) -> [f32; 2] {
-    const IN_PLANE: f32 = 1.0 / (1u32 << 16) as f32;
-    let reach = light.x.abs().max(light.y.abs()).max(light.z.abs());
-    let unsure = (plane.x.abs() + plane.y.abs() + plane.z.abs()) * reach + (plane.w * light.w).abs();
-    [plane.x * light.x + plane.y * light.y + plane.z * light.z + plane.w * light.w, IN_PLANE * unsure]
+/// The normal's length over the longest edge's.
+pub(super) fn narrow(plane: Vec4, [a, b, c]: [Vec3; 3]) -> f32 {
+    let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared()).sqrt();
+    if longest > 0.0 { plane.truncate().length() / longest } else { 0.0 }
 }
 
-/// What a triangle adds to the volume by itself; `None` where the light lies in its plane, and the
-/// triangle goes with its neighbours ([`Facing::decide`]).
-#[inline]
-pub(super) fn contribution(plane: Vec4, light: Vec4, two_sided: bool) -> Option<i8> {
-    let [height, unsure] = height(plane, light);
-    (height.abs() > unsure).then(|| counts(height > 0.0, two_sided))
+/// A light, and how close to a triangle's plane it must be to see the triangle edge-on.
+///
+/// The sides of a volume that the light throws along a triangle rise over it by the light's angle to its
+/// plane, times its length. Where that is less than some millionths of the coordinates, depths do not tell
+/// the two apart; and a silhouette that runs on the triangle's other side is off by no more than that.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EdgeOn {
+    light: Vec4,
+    /// The light's largest coordinate.
+    reach: f32,
+    /// Some millionths of the coordinates, times the least distance from the light.
+    room: f32,
+}
+
+impl EdgeOn {
+    /// Of the coordinates: what single precision leaves open about a height.
+    const ROUNDING: f32 = 1.0 / (1u32 << 16) as f32;
+    /// Of the coordinates: what depths do not tell apart.
+    const SHARE: f32 = 2.0 / (1u32 << 20) as f32;
+
+    /// For a mesh in `bounds`.
+    pub(super) fn new(bounds: &Aabb, light: Vec4) -> Self {
+        let reach = light.truncate().abs().max_element();
+        let size = bounds.min.abs().max(bounds.max.abs()).max_element();
+        let (size, distance) = if light.w == 0.0 {
+            (size, 1.0)
+        } else {
+            (size.max(reach), light.truncate().distance(light.truncate().clamp(bounds.min, bounds.max)))
+        };
+        let room = Self::SHARE * size * distance;
+        Self { light, reach, room: if room.is_finite() { room } else { 0.0 } }
+    }
+
+    /// The light's height over a plane, and the height under which it sees the triangle edge-on. Neither is
+    /// normalised.
+    #[inline]
+    fn height(&self, plane: Vec4, narrow: f32) -> [f32; 2] {
+        let light = self.light;
+        let unsure = (plane.x.abs() + plane.y.abs() + plane.z.abs()) * self.reach + (plane.w * light.w).abs();
+        let height = plane.x * light.x + plane.y * light.y + plane.z * light.z + plane.w * light.w;
+        [height, (Self::ROUNDING * unsure).max(narrow * self.room)]
+    }
+
+    /// What a triangle adds to the volume by itself; `None` where it is seen edge-on, and its neighbours decide
+    /// ([`Facing::decide`]).
+    #[inline]
+    pub(super) fn contribution(&self, plane: Vec4, narrow: f32, two_sided: bool) -> Option<i8> {
+        let [height, least] = self.height(plane, narrow);
+        (height.abs() >= least).then(|| counts(height > 0.0, two_sided))
+    }
 }
 
 fn counts(facing: bool, two_sided: bool) -> i8 {
@@ -128,27 +171,30 @@ impl Facing {
     /// the neighbour over which the light looks at it, and the silhouette runs where the light leaves it:
     ///
     /// ```text
-    ///   light *  - - - - - - .__________.            .____edge-on______
-    ///                   faces|  edge-on  \\ away      /away            | faces (from within)
-    ///                   it: +1    +1      \\ 0      / 0               |
+    ///   light *  - - - -  ____edge-on___            light *  - - - -  \          ___
+    ///                    |              \                              \        |
+    ///            faces it: +1    +1      \ away: 0            away: 0    \__0____| faces it: +1
     /// ```
+    ///
+    /// Of the soup every triangle counts, so it goes by the sign alone.
     pub fn decide(&mut self, topology: &Topology, planes: &Planes, welded: &[Vec3], light: Vec4) {
         let soup = topology.two_sided();
         let count = soup.len().min(planes.len());
         // Slices of one length, so that the loop has no checks in it and runs several at a time.
         let (x, y, z, offset) = (&planes.x[..count], &planes.y[..count], &planes.z[..count], &planes.offset[..count]);
-        let soup = &soup[..count];
+        let (narrow, soup) = (&planes.narrow[..count], &soup[..count]);
+        let plane = |at: usize| Vec4::new(x[at], y[at], z[at], offset[at]);
+        let seen = EdgeOn::new(&planes.bounds, light);
         self.contributions.resize(count, 0);
         let mut edge_on = 0u32;
         for (at, out) in self.contributions.iter_mut().enumerate() {
-            let [height, unsure] = height(Vec4::new(x[at], y[at], z[at], offset[at]), light);
-            *out = counts(height > unsure, soup[at]);
-            edge_on += u32::from(height.abs() <= unsure);
+            let [height, least] = seen.height(plane(at), narrow[at]);
+            *out = counts(height > if soup[at] { 0.0 } else { least }, soup[at]);
+            edge_on += u32::from(!soup[at] & (height.abs() < least));
         }
         if edge_on > 0 {
-            let plane = |at: usize| Vec4::new(x[at], y[at], z[at], offset[at]);
             self.edge_on.clear();
-            self.edge_on.extend((0..count).map(|at| !soup[at] && contribution(plane(at), light, false).is_none()));
+            self.edge_on.extend((0..count).map(|at| !soup[at] && seen.contribution(plane(at), narrow[at], false).is_none()));
             self.follow_neighbours(topology, planes, welded, light);
         }
     }
