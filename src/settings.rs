@@ -6,10 +6,12 @@
 mod counting;
 mod culling;
 mod lighting;
+mod mirrors;
 
 pub use counting::{Counting, MAX_COUNT_BITS, Overflow};
 pub use culling::{Culling, LightBounds};
 pub use lighting::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
+pub use mirrors::{LastBounce, MAX_BOUNCES, MirrorMode, MirrorPlace, Mirrors};
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -63,6 +65,8 @@ pub struct Settings {
     pub lighting: Lighting,
     /// What is left out of counting shadows.
     pub culling: Culling,
+    /// Which surfaces are mirrors, and how what is seen in them is drawn.
+    pub mirrors: Mirrors,
     /// Part of the name of the adapter to use.
     pub adapter: Option<String>,
     /// Shaders are read from here instead of the program, and again when they change.
@@ -91,6 +95,7 @@ impl Default for Settings {
             lights: BTreeMap::new(),
             lighting: Lighting::default(),
             culling: Culling::default(),
+            mirrors: Mirrors::default(),
             adapter: None,
             shaders: None,
         }

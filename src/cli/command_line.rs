@@ -37,6 +37,7 @@ pub fn render_command(settings: &Settings) -> String {
         culling,
         adapter,
         shaders,
+        mirrors: _,
     } = settings;
     let default = Settings::default();
     let mut line = Line::default();

@@ -12,6 +12,7 @@ use thiserror::Error;
 
 use super::{AlphaMode, Mesh, Node, Pose, Scene};
 use crate::geometry::planar::{self, Uneven};
+use crate::settings::{MirrorMode, MirrorPlace, Mirrors};
 
 /// How a material reflects.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,6 +126,28 @@ impl Mirror {
 }
 
 impl Scene {
+    /// The mirrors as settings have them, and why some that they ask for are none.
+    #[must_use]
+    pub fn mirrors_in_force(&self, settings: &Mirrors) -> (Vec<Mirror>, Vec<String>) {
+        if settings.mode == MirrorMode::Off {
+            return (Vec::new(), Vec::new());
+        }
+        let place = |mirror: &Mirror| MirrorPlace { node: mirror.node, primitive: mirror.primitive };
+        let kept = |mirror: &&Mirror| settings.edits.get(&place(mirror)) != Some(&false) && mirror.look.reflectivity > 0.0;
+        let mut mirrors: Vec<_> = self.mirrors.iter().filter(kept).cloned().collect();
+        let mut refused = Vec::new();
+        for (added, _) in settings.edits.iter().filter(|(_, on)| **on) {
+            if self.mirrors.iter().any(|mirror| place(mirror) == *added) {
+                continue;
+            }
+            match Mirror::of(self, added.node, added.primitive, Reflective::default()) {
+                Ok(mirror) => mirrors.push(mirror),
+                Err(why) => refused.push(format!("node {}, primitive {}: no mirror: {why}", added.node, added.primitive)),
+            }
+        }
+        (mirrors, refused)
+    }
+
     /// Looks for the surfaces that are marked mirrors and fills [`Scene::mirrors`]; says which are none, and
     /// why.
     pub(super) fn find_mirrors(&mut self) -> Vec<String> {

@@ -1,0 +1,150 @@
+//! Which surfaces are mirrors, and how what is seen in them is drawn.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+/// Mirrors, and what is seen in them.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Mirrors {
+    /// How reflections are drawn.
+    pub mode: MirrorMode,
+    /// How often a ray is reflected at most, 1 to [`MAX_BOUNCES`]: for the modes that go on in mirrors.
+    pub bounces: u32,
+    /// What a mirror shows where a ray has been reflected as often as it may be.
+    pub last: LastBounce,
+    /// Mirrors reflect more, the more obliquely they are seen (Schlick 1994), instead of evenly.
+    pub fresnel: bool,
+    /// Pixels: views of a smaller area are not drawn; 0 draws every one that shows.
+    pub least_pixels: u32,
+    /// What was changed of the scene's mirrors.
+    #[serde(with = "as_list")]
+    pub edits: BTreeMap<MirrorPlace, bool>,
+}
+
+/// A surface of the scene: one primitive of a node's mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct MirrorPlace {
+    /// The scene's node.
+    pub node: usize,
+    /// Of its mesh.
+    pub primitive: usize,
+}
+
+/// The most reflections of one ray.
+pub const MAX_BOUNCES: u32 = 8;
+
+impl Default for Mirrors {
+    fn default() -> Self {
+        Self {
+            mode: MirrorMode::default(),
+            bounces: 4,
+            last: LastBounce::default(),
+            fresnel: false,
+            least_pixels: 0,
+            edits: BTreeMap::new(),
+        }
+    }
+}
+
+impl Mirrors {
+    /// How often a ray is reflected at most, by the mode.
+    #[must_use]
+    pub fn most_bounces(&self) -> u32 {
+        match self.mode {
+            MirrorMode::Off => 0,
+            MirrorMode::Stencil => 1,
+            MirrorMode::Recursive => self.bounces.clamp(1, MAX_BOUNCES),
+        }
+    }
+}
+
+/// How reflections are drawn.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MirrorMode {
+    /// Not at all: mirrors are surfaces as others.
+    Off,
+    /// One reflection, bounded by the stencil (K section 3); mirrors seen in a mirror are grey.
+    Stencil,
+    /// Mirrors in mirrors (K section 3, "recursive reflections").
+    #[default]
+    Recursive,
+}
+
+impl MirrorMode {
+    /// Every one, in the order people see them.
+    pub const ALL: [Self; 3] = [Self::Off, Self::Stencil, Self::Recursive];
+
+    /// The name on the command line and in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Off => "off",
+            Self::Stencil => "stencil",
+            Self::Recursive => "recursive",
+        }
+    }
+
+    /// One sentence for help and panel.
+    #[must_use]
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Off => "mirrors are ordinary surfaces",
+            Self::Stencil => "one reflection, bounded by the stencil; mirrors in a mirror are grey (Kilgard 3)",
+            Self::Recursive => "mirrors in mirrors, each view bounded by the stencil (Kilgard 3)",
+        }
+    }
+}
+
+/// What a mirror shows past the last reflection.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LastBounce {
+    /// Neutral grey (K section 3).
+    #[default]
+    Grey,
+    /// The same, and every reflection before it fades towards it.
+    Fade,
+}
+
+impl LastBounce {
+    /// Every one, in the order people see them.
+    pub const ALL: [Self; 2] = [Self::Grey, Self::Fade];
+
+    /// The name on the command line and in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Grey => "grey",
+            Self::Fade => "fade",
+        }
+    }
+
+    /// One sentence for help and panel.
+    #[must_use]
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Grey => "past the last bounce mirrors are neutral grey (Kilgard 3)",
+            Self::Fade => "each bounce fades towards the grey that lies past the last",
+        }
+    }
+}
+
+/// Maps with keys that are no text, as lists of pairs.
+mod as_list {
+    use std::collections::BTreeMap;
+
+    use serde::{Deserialize as _, Deserializer, Serializer};
+
+    use super::MirrorPlace;
+
+    pub fn serialize<S: Serializer>(edits: &BTreeMap<MirrorPlace, bool>, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq(edits)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<BTreeMap<MirrorPlace, bool>, D::Error> {
+        Ok(Vec::<(MirrorPlace, bool)>::deserialize(from)?.into_iter().collect())
+    }
+}
