@@ -5,6 +5,7 @@
 //! before (pose, camera) and after (validation), for the window and the headless commands alike.
 
 mod rounds;
+mod shown;
 
 use std::cell::OnceCell;
 
@@ -24,11 +25,10 @@ use crate::scene::area::sequence;
 use crate::scene::pose::pose;
 use crate::scene::{LightKind, Pose, Sampling, Scene};
 use crate::settings::{Accumulation, MAX_FRAMES, Settings, Show, Technique, Texturing};
-use crate::techniques::above::{Above, above};
 use crate::techniques::cases::{self, Class};
 use crate::techniques::counting::LightCount;
 use crate::techniques::culling::{Audience, Interest, Stalls, around, light_rect};
-use crate::techniques::labels::{self, Named};
+use crate::techniques::labels::Named;
 use crate::techniques::own_bits::{Round, Shining};
 use crate::techniques::{self, Caster, bounds, counting, depth_bounds, show, surfaces, wide};
 
@@ -508,74 +508,6 @@ impl<'a> Frame<'a> {
             solid,
             overflow: counting.overflow,
             values: self.settings.show == Show::Stencil,
-        }
-    }
-
-    /// Makes sure that the light whose volumes are shown has some, even when nothing counted them.
-    fn plan_glass(&mut self, light: usize) {
-        if !self.plan.volumes.iter().any(|volume| volume.light == light) {
-            self.count_by(techniques::row(Technique::ZPass), light);
-        }
-    }
-
-    /// Decides every caster of a light, by the chosen technique or, where that counts nothing, as the
-    /// volumes that are shown are.
-    fn plan_casters(&mut self, light: usize) {
-        self.count(light);
-        self.plan_glass(light);
-    }
-
-    /// What each instance is to a light whose casters are planned.
-    fn classes(&self, light: usize) -> Vec<Class> {
-        cases::classes(self.scene, &self.plan.volumes, light, self.pose.lights[light].shadows)
-    }
-
-    /// Takes the eye's place to look at all from above; gives the eye, for which everything was planned.
-    fn rise(&mut self) -> (Camera, Above) {
-        let eye = self.plan.views[0].camera;
-        let above = above(self.scene, self.pose, &eye, self.settings.light);
-        if let Some(cut) = above.cut {
-            self.plan.notes.push(format!("something covers the eye: all above {cut:.1} m is cut away"));
-        }
-        self.plan.views[0] = View { name: "above".into(), camera: above.camera, winding: Winding::Ccw };
-        // Display values have no exposure.
-        self.plan.exposure = 1.0;
-        (eye, above)
-    }
-
-    fn draw_bounds(&mut self, eye: &Camera, above: &Above, scissor: Option<[u32; 4]>) {
-        let scope = bounds::Scope {
-            above,
-            eye,
-            size: self.plan.size,
-            pose: self.pose,
-            lights: self.scene.lights.len(),
-            light: self.settings.light,
-            bounds: self.settings.culling.light_bounds,
-            scissor,
-        };
-        if scissor.is_none() {
-            self.plan.notes.push(format!("light {} reaches nothing in view", self.settings.light));
-        }
-        self.push(bounds::step(bounds::strokes(&scope), self.whole()));
-    }
-
-    /// Names, where they are asked for, over the finished picture.
-    fn label(&mut self, target: Target) {
-        if !self.settings.lighting.labels {
-            return;
-        }
-        self.name(Named { casters: true, eye: None }, self.plan.views[0].camera, target);
-    }
-
-    /// Names over the finished picture, which `camera` sees.
-    fn name(&mut self, named: Named, camera: Camera, target: Target) {
-        let (labels, left_out) = labels::labels(self.scene, self.pose, named, camera, self.plan.size);
-        if left_out > 0 {
-            self.plan.notes.push(format!("{left_out} names have no room in the picture"));
-        }
-        if !labels.is_empty() {
-            self.push(labels::step(labels, target, self.whole()));
         }
     }
 

@@ -1,0 +1,81 @@
+//! What is shown beside the picture: volumes, the eye's bounds from above, and names.
+
+use super::Frame;
+use crate::frame::plan::View;
+use crate::frame::state::Winding;
+use crate::frame::{Camera, Target};
+use crate::settings::Technique;
+use crate::techniques::above::{Above, above};
+use crate::techniques::cases::{self, Class};
+use crate::techniques::labels::{self, Named};
+use crate::techniques::{self, bounds};
+
+impl Frame<'_> {
+    /// Makes sure that the light whose volumes are shown has some, even when nothing counted them.
+    pub(super) fn plan_glass(&mut self, light: usize) {
+        if !self.plan.volumes.iter().any(|volume| volume.light == light) {
+            self.count_by(techniques::row(Technique::ZPass), light);
+        }
+    }
+
+    /// Decides every caster of a light, by the chosen technique or, where that counts nothing, as the
+    /// volumes that are shown are.
+    pub(super) fn plan_casters(&mut self, light: usize) {
+        self.count(light);
+        self.plan_glass(light);
+    }
+
+    /// What each instance is to a light whose casters are planned.
+    pub(super) fn classes(&self, light: usize) -> Vec<Class> {
+        cases::classes(self.scene, &self.plan.volumes, light, self.pose.lights[light].shadows)
+    }
+
+    /// Takes the eye's place to look at all from above; gives the eye, for which everything was planned.
+    pub(super) fn rise(&mut self) -> (Camera, Above) {
+        let eye = self.plan.views[0].camera;
+        let above = above(self.scene, self.pose, &eye, self.settings.light);
+        if let Some(cut) = above.cut {
+            self.plan.notes.push(format!("something covers the eye: all above {cut:.1} m is cut away"));
+        }
+        self.plan.views[0] = View { name: "above".into(), camera: above.camera, winding: Winding::Ccw };
+        // Display values have no exposure.
+        self.plan.exposure = 1.0;
+        (eye, above)
+    }
+
+    pub(super) fn draw_bounds(&mut self, eye: &Camera, above: &Above, scissor: Option<[u32; 4]>) {
+        let scope = bounds::Scope {
+            above,
+            eye,
+            size: self.plan.size,
+            pose: self.pose,
+            lights: self.scene.lights.len(),
+            light: self.settings.light,
+            bounds: self.settings.culling.light_bounds,
+            scissor,
+        };
+        if scissor.is_none() {
+            self.plan.notes.push(format!("light {} reaches nothing in view", self.settings.light));
+        }
+        self.push(bounds::step(bounds::strokes(&scope), self.whole()));
+    }
+
+    /// Names, where they are asked for, over the finished picture.
+    pub(super) fn label(&mut self, target: Target) {
+        if !self.settings.lighting.labels {
+            return;
+        }
+        self.name(Named { casters: true, eye: None }, self.plan.views[0].camera, target);
+    }
+
+    /// Names over the finished picture, which `camera` sees.
+    pub(super) fn name(&mut self, named: Named, camera: Camera, target: Target) {
+        let (labels, left_out) = labels::labels(self.scene, self.pose, named, camera, self.plan.size);
+        if left_out > 0 {
+            self.plan.notes.push(format!("{left_out} names have no room in the picture"));
+        }
+        if !labels.is_empty() {
+            self.push(labels::step(labels, target, self.whole()));
+        }
+    }
+}
