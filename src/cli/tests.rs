@@ -10,8 +10,8 @@ use proptest::prelude::*;
 use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
 use crate::settings::{
-    Accumulation, AreaMode, Counting, Culling, LightBounds, Lighting, MAX_AREA_SAMPLES, MAX_COUNT_BITS, MAX_FRAMES, Overflow,
-    SlideChoice, Texturing,
+    Accumulation, AreaMode, Counting, Culling, LightBounds, Lighting, MAX_AREA_SAMPLES, MAX_COUNT_BITS, MAX_FRAMES, Mirrors,
+    Overflow, SlideChoice, Texturing,
 };
 
 fn command(line: &str) -> Result<Command, InputError> {
@@ -91,6 +91,7 @@ fn every_argument_reaches_its_setting() {
         },
         culling: Culling { on: false, light_bounds: LightBounds::Sphere, caster_scissors: true, depth_bounds: true },
         adapter: Some("llvm".into()),
+        mirrors: Mirrors::default(),
         shaders: Some("wgsl".into()),
     };
     assert_eq!(got, expected);
@@ -399,6 +400,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             lighting,
             culling,
             adapter,
+            mirrors: Mirrors::default(),
             shaders,
         },
     )
