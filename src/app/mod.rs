@@ -18,6 +18,7 @@ pub mod clock;
 pub mod control;
 pub mod device;
 pub mod keys;
+mod live;
 pub mod pace;
 pub mod photo;
 mod session;
