@@ -51,7 +51,7 @@ pub(super) fn area(polygon: &[DVec2]) -> f64 {
 
 /// The corners of the smallest convex polygon about `points`, counter-clockwise with the y axis up (Andrew's
 /// monotone chain); two corners where all lie on a line, one where all are one. Sorts `points`.
-pub(super) fn hull(points: &mut Vec<DVec2>) -> Vec<DVec2> {
+pub(crate) fn hull(points: &mut Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     points.dedup();
     if points.len() < 3 {

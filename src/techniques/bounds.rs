@@ -5,7 +5,7 @@
 //! Everything is a line or an area in pixels, projected here in double precision: the plan says where they
 //! are, and the GPU only fills them.
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DVec2, DVec3, DVec4, Vec2};
 
 use super::above::Above;
 use super::cases::Class;
@@ -15,6 +15,7 @@ use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::StencilState;
 use crate::frame::{Action, Camera, Draw, DrawSet, Look, Method, Program, Step, Stroke, Target, VolumePlan};
 use crate::geometry::BOX_EDGES;
+use crate::geometry::clip::hull;
 use crate::geometry::frustum::cube;
 use crate::scene::{LightKind, Pose, PosedLight};
 use crate::settings::LightBounds;
@@ -129,7 +130,10 @@ impl<'a> Map<'a> {
             (0..STEPS).map(move |step| a.lerp(b, f64::from(step) / f64::from(STEPS)))
         });
         let ends = border.map(|place| self.end(place));
-        hull(std::iter::once(self.scope.eye.eye).chain(ends).filter_map(|place| self.at(place)).collect())
+        let places = std::iter::once(self.scope.eye.eye).chain(ends);
+        let mut pixels = places.filter_map(|place| self.at(place)).map(|pixel| Vec2::from(pixel).as_dvec2()).collect();
+        // What came from single precision fits it again.
+        hull(&mut pixels).into_iter().map(|corner| corner.as_vec2().to_array()).collect()
     }
 
     fn frustum(&self, strokes: &mut Vec<Stroke>) {
@@ -194,7 +198,7 @@ impl<'a> Map<'a> {
         let eye = self.scope.eye.eye;
         let towards = if light.kind == LightKind::Directional { self.end(eye - light.direction) } else { light.position };
         let (Some(from), Some(to)) = (self.at(eye), self.at(towards)) else { return };
-        let (from, to) = (glam::Vec2::from(from), glam::Vec2::from(to));
+        let (from, to) = (Vec2::from(from), Vec2::from(to));
         let length = from.distance(to).min(self.scope.size[0] as f32 * 4.0);
         let way = (to - from).normalize_or_zero();
         let dashes = (length / (2.0 * DASH)).ceil() as usize;
@@ -244,30 +248,6 @@ fn hue_of(light: &PosedLight) -> [f32; 3] {
 
 fn with_alpha([r, g, b]: [f32; 3], alpha: f32) -> [f32; 4] {
     [r, g, b, alpha]
-}
-
-/// The convex outline of some points, around (Andrew's monotone chain).
-fn hull(mut points: Vec<[f32; 2]>) -> Vec<[f32; 2]> {
-    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    points.dedup();
-    let turn = |a: [f32; 2], b: [f32; 2], c: [f32; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    let half = |points: &mut dyn Iterator<Item = [f32; 2]>| {
-        let mut chain: Vec<[f32; 2]> = Vec::new();
-        for point in points {
-            while let [.., a, b] = chain[..]
-                && turn(a, b, point) <= 0.0
-            {
-                chain.pop();
-            }
-            chain.push(point);
-        }
-        // The other half begins with it.
-        chain.pop();
-        chain
-    };
-    let mut around = half(&mut points.iter().copied());
-    around.extend(half(&mut points.iter().rev().copied()));
-    around
 }
 
 /// The colours of the classes in the view from above: what casts nothing is dim, for the lines to stand out.
@@ -329,21 +309,5 @@ pub fn step(strokes: Vec<Stroke>, scissor: [u32; 4]) -> Step {
             constant: [0.0; 4],
             set: DrawSet::Strokes(strokes),
         })),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_hull_keeps_what_is_outermost() {
-        let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
-        let mut points = vec![[1.0, 1.0], [1.0, 0.0], [0.5, 1.5]];
-        points.extend(square);
-        let mut found = hull(points);
-        found.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
-        assert_eq!(found, [[0.0, 0.0], [0.0, 2.0], [2.0, 0.0], [2.0, 2.0]]);
-        assert_eq!(hull(vec![[1.0, 1.0]; 3]), Vec::<[f32; 2]>::new(), "no area");
     }
 }
