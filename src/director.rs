@@ -14,7 +14,6 @@ use thiserror::Error;
 
 use crate::failures;
 use crate::frame::plan::View;
-use crate::frame::state::Winding;
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::validate::{Fault, validate};
 use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, Gather, Step, Target};
@@ -294,7 +293,7 @@ impl<'a> Frame<'a> {
             exposure: scene.exposure * settings.exposure.exp2(),
             smooth_terminator: settings.smooth_terminator,
             budget: BitBudget::of_bits(settings.counting.bits),
-            views: vec![View { name: "eye".into(), camera, winding: Winding::Ccw }],
+            views: vec![View::of_eye("eye", camera, settings.size)],
             volumes: Vec::new(),
             steps: Vec::new(),
             accumulation: settings.lighting.accumulation,
@@ -476,6 +475,7 @@ impl<'a> Frame<'a> {
                     scene: self.scene,
                     pose: self.pose,
                     view,
+                    view_number: 0,
                     near_pyramid: &self.near_pyramid,
                     across: &self.across[instance],
                     instance,

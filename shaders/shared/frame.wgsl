@@ -14,6 +14,7 @@ struct Frame {
     size: vec2f,                // pixels
     _pad2: vec2f,
     clip_from_world: mat4x4f,   // for mismatched arithmetic only: see volume.wgsl
+    clip_plane: vec4f,          // world space: under it nothing is seen, in views by way of a mirror
 }
 
 struct Object {

@@ -2,7 +2,6 @@
 
 use super::Frame;
 use crate::frame::plan::View;
-use crate::frame::state::Winding;
 use crate::frame::{Camera, Target};
 use crate::settings::Technique;
 use crate::techniques::above::{Above, above};
@@ -37,7 +36,7 @@ impl Frame<'_> {
         if let Some(cut) = above.cut {
             self.plan.notes.push(format!("something covers the eye: all above {cut:.1} m is cut away"));
         }
-        self.plan.views[0] = View { name: "above".into(), camera: above.camera, winding: Winding::Ccw };
+        self.plan.views[0] = View::of_eye("above", above.camera, self.plan.size);
         // Display values have no exposure.
         self.plan.exposure = 1.0;
         (eye, above)

@@ -4,6 +4,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 use thiserror::Error;
 
 use crate::geometry::near_rectangle::{ThroughLight, through_light};
+use crate::geometry::planar::reflection;
 use crate::scene::{Pose, Scene};
 use crate::settings::{CameraChoice, Settings};
 
@@ -29,6 +30,9 @@ pub struct Camera {
     /// How far the picture lies beside where it would, in halves of it, to the right and up: a part of a
     /// pixel, where several frames are gathered into one picture.
     pub shift: DVec2,
+    /// Looks by way of an odd number of mirrors: what is to the right of the eye is on the left of the picture.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub mirrored: bool,
 }
 
 /// Why there is no such camera.
@@ -113,6 +117,7 @@ impl Camera {
             far: None,
             focus_distance: eye.distance(target),
             shift: DVec2::ZERO,
+            mirrored: false,
         })
     }
 
@@ -127,6 +132,7 @@ impl Camera {
             far: None,
             focus_distance: 8.0,
             shift: DVec2::ZERO,
+            mirrored: false,
         };
         let Some(camera) = scene.cameras.get(index) else { return fallback };
         let Some(world_from_node) = pose.world_from_node.get(camera.node) else { return fallback };
@@ -144,6 +150,7 @@ impl Camera {
             far: None,
             focus_distance: camera.focus_distance,
             shift: DVec2::ZERO,
+            mirrored: false,
         }
     }
 
@@ -153,10 +160,31 @@ impl Camera {
         self.eye + self.forward * self.focus_distance
     }
 
+    /// Towards the right of the picture; unit.
+    #[must_use]
+    pub fn right(&self) -> DVec3 {
+        let right = self.forward.cross(self.up);
+        if self.mirrored { -right } else { right }
+    }
+
+    /// What sees the unreflected world as this camera sees it in a mirror on `plane` (unit normal, world space).
+    #[must_use]
+    pub fn reflected(&self, plane: DVec4) -> Self {
+        let mirror = reflection(plane);
+        Self {
+            eye: mirror.transform_point3(self.eye),
+            forward: mirror.transform_vector3(self.forward),
+            up: mirror.transform_vector3(self.up),
+            mirrored: !self.mirrored,
+            ..*self
+        }
+    }
+
     /// View space: the eye at the origin, looking along -Z.
     #[must_use]
     pub fn view_from_world(&self) -> DMat4 {
-        glam::dcamera::rh::view::look_to_mat4(self.eye, self.forward, self.up)
+        let view_from_world = glam::dcamera::rh::view::look_to_mat4(self.eye, self.forward, self.up);
+        if self.mirrored { DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * view_from_world } else { view_from_world }
     }
 
     /// Reverse-Z with infinite far: near maps to depth 1, infinity to 0 (DESIGN section 3). With a far
@@ -179,7 +207,7 @@ impl Camera {
     #[must_use]
     pub fn near_rectangle(&self) -> [DVec3; 4] {
         let half_height = (self.vertical_fov / 2.0).tan() * self.near;
-        let (up, right) = (self.up * half_height, self.forward.cross(self.up) * (half_height * self.aspect));
+        let (up, right) = (self.up * half_height, self.right() * (half_height * self.aspect));
         let center = self.eye + self.forward * self.near - right * self.shift.x - up * self.shift.y;
         [center - right - up, center + right - up, center + right + up, center - right + up]
     }

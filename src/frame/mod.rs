@@ -14,7 +14,7 @@ pub mod validate;
 
 pub use camera::{Camera, CameraError};
 pub use capabilities::{Capabilities, Lack, WideCounts};
-pub use plan::{Case, Cutout, CutoutShape, FramePlan, Gather, Method, Reason, View, VolumePlan};
+pub use plan::{Case, Cutout, CutoutShape, FramePlan, Gather, Method, Reason, View, VolumePlan, Window};
 pub use step::{
     Action, Clear, Draw, DrawSet, Label, LabelKind, LightShape, Look, Part, Program, Step, Stroke, Surface, Target, VolumePart,
 };

@@ -1,12 +1,12 @@
 //! The frame as one value.
 
-use glam::DVec4;
+use glam::{DVec4, Vec4};
 use serde::Serialize;
 
 use super::camera::Camera;
 use super::state::Winding;
 use super::stencil::BitBudget;
-use super::step::{Action, Draw, DrawSet, Part, Step};
+use super::step::{Action, Draw, DrawSet, Part, Step, Surface};
 use super::validate::Rule;
 use crate::geometry::cutout::{CutoutPlane, Throw};
 use crate::geometry::volume::Outline;
@@ -26,7 +26,7 @@ pub struct FramePlan {
     pub smooth_terminator: bool,
     /// Who owns which stencil bits.
     pub budget: BitBudget,
-    /// The eye; later also one for each mirror path.
+    /// The eye's, and then one for each mirror path, each after the view it is seen in.
     pub views: Vec<View>,
     /// How each caster's volume is counted for each light, and why.
     pub volumes: Vec<VolumePlan>,
@@ -64,20 +64,72 @@ impl Gather {
     }
 }
 
-/// One eye.
+/// One eye: the camera's own, or that eye reflected in the mirrors of a path.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct View {
-    /// Words: `eye`.
+    /// Words: `eye`, and the names of the mirrors on the way.
     pub name: String,
     /// Where it looks from.
     pub camera: Camera,
     /// The front's winding on screen for instances that do not mirror.
     pub winding: Winding,
+    /// The pixels it may have.
+    pub rect: [u32; 4],
+    /// What it looks through; none for the eye itself.
+    pub through: Option<Window>,
+}
+
+/// The mirror that a view looks through.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Window {
+    /// The view that the mirror is seen in: an index into the plan's views.
+    pub parent: usize,
+    /// The mirrors that a ray from the eye meets on its way, in order: indices into the mirrors in force
+    /// ([`crate::scene::Scene::mirrors_in_force`]).
+    pub path: Vec<usize>,
+    /// The last mirror's surface.
+    pub surface: Surface,
+    /// The mirror's plane, world space, unit normal to the side that reflects: nothing under it is seen.
+    pub plane: DVec4,
+    /// Metres over the plane up to which nothing is seen, either: what lies in it is no reflection.
+    pub slack: f64,
+    /// Its pixels' value in the stencil's mirror bits.
+    pub level: u8,
+}
+
+impl Window {
+    /// The plane under which nothing is drawn: the mirror's, raised by the slack.
+    #[must_use]
+    pub fn clip_plane(&self) -> Vec4 {
+        (self.plane - DVec4::W * self.slack).as_vec4()
+    }
+}
+
+impl View {
+    /// The eye's own, of the whole picture.
+    #[must_use]
+    pub fn of_eye(name: &str, camera: Camera, size: [u32; 2]) -> Self {
+        Self { name: name.into(), camera, winding: Winding::Ccw, rect: [0, 0, size[0], size[1]], through: None }
+    }
+
+    /// The mirrors on the way from the eye; none for the eye's own.
+    #[must_use]
+    pub fn path(&self) -> &[usize] {
+        self.through.as_ref().map_or(&[], |window| &window.path)
+    }
+
+    /// Its pixels' value in the stencil's mirror bits.
+    #[must_use]
+    pub fn level(&self) -> u8 {
+        self.through.as_ref().map_or(0, |window| window.level)
+    }
 }
 
 /// One caster's volume for one light in one view.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct VolumePlan {
+    /// The view it is counted in: an index into the plan's views.
+    pub view: usize,
     /// The caster, as [`crate::scene::Scene::instances`] counts them.
     pub instance: usize,
     /// An index into the scene's lights.

@@ -40,6 +40,9 @@ pub struct BitBudget {
     pub points_mask: u8,
     /// Whether the light has bounds that are marked there; others leave the bit as it is.
     pub bounded: bool,
+    /// The highest bits, or none: how many mirrors lie on the way from the eye to the pixel's surface, in Gray
+    /// code ([`Self::level`]).
+    pub mirror_mask: u8,
 }
 
 impl Default for BitBudget {
@@ -65,14 +68,34 @@ impl BitBudget {
             beyond_mask: 0,
             points_mask: 0,
             bounded: false,
+            mirror_mask: 0,
         }
     }
 
-    /// The same with the highest bit for what lies beyond the light's bounds; a field that took it
+    /// The same with the highest bits for mirrors that lie up to `levels` deep in one another; a field that took
+    /// them has as many bits less.
+    #[must_use]
+    pub const fn with_mirrors(self, levels: u32) -> Self {
+        let bits = u32::BITS - levels.leading_zeros();
+        let mirror_mask = !(u8::MAX.unbounded_shr(bits));
+        Self { count_mask: self.count_mask & !mirror_mask, mirror_mask, ..self }
+    }
+
+    /// The mirror bits of pixels that are seen by way of so many mirrors. Neighbouring levels differ in one bit
+    /// (Gray 1953), so that one step with the operation `Invert` leads from either to the other, and asks for
+    /// all bits at the same time.
+    #[must_use]
+    pub const fn level(self, mirrors: u32) -> u8 {
+        let gray = mirrors ^ (mirrors >> 1);
+        (gray << self.mirror_mask.trailing_zeros()) as u8 & self.mirror_mask
+    }
+
+    /// The same with the highest bit that is left for what lies beyond the light's bounds; a field that took it
     /// has one bit less.
     #[must_use]
     pub const fn with_bounds(self) -> Self {
-        Self { count_mask: self.count_mask & !BEYOND, beyond_mask: BEYOND, bounded: true, ..self }
+        let beyond_mask = highest(!self.mirror_mask);
+        Self { count_mask: self.count_mask & !beyond_mask, beyond_mask, bounded: true, ..self }
     }
 
     /// The same for a light whose bounds are not marked.
@@ -92,7 +115,7 @@ impl BitBudget {
     #[must_use]
     pub const fn of_point(count_bits: u32, own: u8) -> Self {
         let count_mask = ((1_u32 << count_bits) - 1) as u8;
-        Self { count_mask, verdict_mask: own, beyond_mask: 0, points_mask: own, bounded: false }
+        Self { count_mask, verdict_mask: own, beyond_mask: 0, points_mask: own, bounded: false, mirror_mask: 0 }
     }
 
     /// Whether the verdict bit is one point's own: all of its count ends up there.
@@ -136,13 +159,15 @@ impl BitBudget {
         if self.is_points() {
             return self;
         }
-        let count_mask = self.count_mask & if self.beyond_mask == 0 { 0x7f } else { 0x3f };
+        let count_mask = self.count_mask & (highest(!(self.mirror_mask | self.beyond_mask)) - 1);
         Self { count_mask, verdict_mask: count_mask + 1, ..self }
     }
 }
 
-/// The bit that bounds take.
-const BEYOND: u8 = 0x80;
+/// The highest bit of a mask that has one.
+const fn highest(mask: u8) -> u8 {
+    1 << (mask | 1).ilog2()
+}
 
 /// What happens to the stored value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
@@ -411,16 +436,49 @@ impl StencilState {
         self.front.compare != Compare::Always || self.back.compare != Compare::Always
     }
 
+    /// The same in one view only: where the mirror bits are those of the reference. What asks for a count that
+    /// differs cannot ask for more; it must be harmless elsewhere.
+    #[must_use]
+    pub fn in_view(self, budget: BitBudget) -> Self {
+        let asks = |face: StencilFace| StencilFace {
+            compare: if face.compare == Compare::Always { Compare::Equal } else { face.compare },
+            ..face
+        };
+        let faces = [self.front, self.back];
+        if faces.iter().any(|face| !matches!(face.compare, Compare::Always | Compare::Equal)) {
+            return self;
+        }
+        let asked = if self.tests() { self.read_mask } else { 0 };
+        Self { front: asks(self.front), back: asks(self.back), read_mask: asked | budget.mirror_mask, ..self }
+    }
+
+    /// A mirror's surface, from its pixels in one view to those of the view through it, or back: passes where the
+    /// mirror bits are the reference and makes them `other`, which differs in one bit.
+    #[must_use]
+    pub const fn through_mirror(budget: BitBudget, reference: u8, other: u8) -> Self {
+        let face = StencilFace { pass: StencilOp::Invert, ..StencilFace::test(Compare::Equal) };
+        Self { front: face, back: face, read_mask: budget.mirror_mask, write_mask: reference ^ other }
+    }
+
+    /// All bits but the mirrors' become the reference's, whatever they were.
+    #[must_use]
+    pub const fn set_all(budget: BitBudget) -> Self {
+        Self::replace(!budget.mirror_mask)
+    }
+
     /// The state in words, for the panel and plan snapshots.
     #[must_use]
-    pub fn words(&self) -> String {
+    pub fn words(&self, budget: BitBudget) -> String {
         if !self.tests() && !self.writes() {
             return "ignored".into();
         }
         let face = |f: &StencilFace| {
             let test = match f.compare {
                 Compare::Always => String::new(),
-                Compare::Equal if self.read_mask == BEYOND && self.write_mask & BEYOND == 0 => "within the bounds ".into(),
+                Compare::Equal if self.read_mask != 0 && self.read_mask & !budget.mirror_mask == 0 => "in its view ".into(),
+                Compare::Equal if self.read_mask & !budget.mirror_mask == budget.beyond_mask && budget.beyond_mask != 0 => {
+                    "within the bounds ".into()
+                }
                 other => format!("passes where the reference is {} ", compare_words(other)),
             };
             let ops: Vec<_> = [("fail", f.fail), ("depth fail", f.depth_fail), ("pass", f.pass)]

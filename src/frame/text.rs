@@ -5,6 +5,7 @@ use std::fmt::{Display, Formatter, Result};
 
 use super::plan::FramePlan;
 use super::state::DepthBias;
+use super::stencil::BitBudget;
 use super::step::{Action, Draw, DrawSet, Part};
 use crate::geometry::volume::Outline;
 use crate::settings::Accumulation;
@@ -23,11 +24,18 @@ impl Display for FramePlan {
         if self.budget.beyond_mask != 0 {
             writeln!(f, "stencil: beyond the light's bounds {:08b}", self.budget.beyond_mask)?;
         }
+        if self.budget.mirror_mask != 0 {
+            writeln!(f, "stencil: mirrors {:08b}", self.budget.mirror_mask)?;
+        }
         if self.budget.points_mask != 0 {
             writeln!(f, "stencil: points' own bits {:08b}", self.budget.points_mask)?;
         }
         for view in &self.views {
-            writeln!(f, "view {}: front {:?}", view.name, view.winding)?;
+            write!(f, "view {}: front {:?}", view.name, view.winding)?;
+            if let Some(window) = &view.through {
+                write!(f, "; pixels {:?}, stencil {:08b}", view.rect, window.level)?;
+            }
+            writeln!(f)?;
         }
         for (point, light) in self.points.iter().enumerate().filter(|(point, light)| point != *light) {
             writeln!(f, "light {point}: a point of light {light}")?;
@@ -35,9 +43,10 @@ impl Display for FramePlan {
         for volume in &self.volumes {
             write!(
                 f,
-                "volume of instance {}, light {}: {:?}, for {}",
+                "volume of instance {}, light {}{}: {:?}, for {}",
                 volume.instance,
                 volume.light,
+                if volume.view == 0 { String::new() } else { format!(", view {}", volume.view) },
                 volume.method,
                 volume.reason.words()
             )?;
@@ -62,7 +71,10 @@ impl Display for FramePlan {
             writeln!(f)?;
         }
         for (number, step) in self.steps.iter().enumerate() {
-            writeln!(f, "{number:2} {}", step.label)?;
+            match step.view {
+                0 => writeln!(f, "{number:2} {}", step.label)?,
+                view => writeln!(f, "{number:2} view {view}: {}", step.label)?,
+            }
             match &step.action {
                 Action::Clear(clear) => {
                     let mut parts = Vec::new();
@@ -80,7 +92,7 @@ impl Display for FramePlan {
                     }
                     writeln!(f, "     clear {}", parts.join(", "))?;
                 }
-                Action::Draw(draw) => describe(f, draw)?,
+                Action::Draw(draw) => describe(f, draw, self.budget)?,
             }
         }
         for note in &self.notes {
@@ -90,7 +102,7 @@ impl Display for FramePlan {
     }
 }
 
-fn describe(f: &mut Formatter<'_>, draw: &Draw) -> Result {
+fn describe(f: &mut Formatter<'_>, draw: &Draw, budget: BitBudget) -> Result {
     let state = &draw.state;
     let bias = match state.depth.bias {
         DepthBias::NONE => String::new(),
@@ -104,7 +116,7 @@ fn describe(f: &mut Formatter<'_>, draw: &Draw) -> Result {
         "     depth {depth}; colour {color}; cull {:?}; front {:?}; near plane {:?}; scissor {:?}",
         state.cull, state.winding, state.near_plane, draw.scissor
     )?;
-    writeln!(f, "     stencil {}, reference {}", state.stencil.words(), draw.stencil_reference)
+    writeln!(f, "     stencil {}, reference {}", state.stencil.words(budget), draw.stencil_reference)
 }
 
 fn contents(set: &DrawSet) -> String {

@@ -1,7 +1,7 @@
 //! Walks the plan and records it: neighbours with the same attachments share one render pass.
 
 use super::context::Context;
-use super::frame_buffers::{DRAW_STRIDE, FrameBuffers, range_of};
+use super::frame_buffers::{FrameBuffers, STRIDE, range_of};
 use super::labels::Labels;
 use super::lines::Lines;
 use super::merged::Run;
@@ -43,7 +43,7 @@ struct Pass<'a> {
     target: Target,
     clear: Clear,
     /// With each draw's number among the plan's draws.
-    draws: Vec<(usize, &'a Draw)>,
+    draws: Vec<(Place, &'a Draw)>,
 }
 
 /// Records the whole plan.
@@ -64,23 +64,32 @@ pub fn encode(encode: Encode<'_>, plan: &FramePlan, scene: &Scene, encoder: &mut
     for (index, pass) in passes.iter().enumerate() {
         let timestamps = encode.timing.writes(index == 0, index + 1 == passes.len());
         let mut recorder = encode.begin(encoder, plan, pass, Some(index) == last_scene, timestamps);
-        recorder.set_bind_group_checked(0, encode.frame.bind_group(), 0);
-        for &(number, draw) in &pass.draws {
-            encode.record(&mut recorder, plan, scene, draw, number, &mut drawn);
+        recorder.set_bind_group_checked(0, encode.frame.bind_group(), Place::default());
+        for &(place, draw) in &pass.draws {
+            encode.record(&mut recorder, plan, scene, draw, place, &mut drawn);
         }
     }
     drawn
 }
 
+/// Which draw.
+#[derive(Debug, Clone, Copy, Default)]
+struct Place {
+    /// Its view, among the plan's.
+    view: usize,
+    /// Its number among the plan's draws.
+    number: usize,
+}
+
 trait CheckedBind {
-    fn set_bind_group_checked(&mut self, index: u32, group: Option<&wgpu::BindGroup>, draw: usize);
+    fn set_bind_group_checked(&mut self, index: u32, group: Option<&wgpu::BindGroup>, place: Place);
 }
 
 impl CheckedBind for wgpu::RenderPass<'_> {
-    fn set_bind_group_checked(&mut self, index: u32, group: Option<&wgpu::BindGroup>, draw: usize) {
+    fn set_bind_group_checked(&mut self, index: u32, group: Option<&wgpu::BindGroup>, place: Place) {
         if let Some(group) = group {
-            let offset = u32::try_from(draw as u64 * DRAW_STRIDE).unwrap_or(0);
-            self.set_bind_group(index, group, &[offset]);
+            let offset = |number: usize| u32::try_from(number as u64 * STRIDE).unwrap_or(0);
+            self.set_bind_group(index, group, &[offset(place.view), offset(place.number)]);
         }
     }
 }
@@ -119,7 +128,7 @@ fn passes(plan: &FramePlan) -> Vec<Pass<'_>> {
                     passes.push(Pass { target: draw.target, clear: pending.take().unwrap_or(KEEP), draws: Vec::new() });
                 }
                 if let Some(pass) = passes.last_mut() {
-                    pass.draws.push((number, draw));
+                    pass.draws.push((Place { view: step.view, number }, draw));
                 }
                 number += 1;
             }
@@ -221,12 +230,12 @@ impl Encode<'_> {
         plan: &FramePlan,
         scene: &Scene,
         draw: &Draw,
-        number: usize,
+        place: Place,
         drawn: &mut Drawn,
     ) {
         let Some(pipeline) = self.pipelines.get(&self.key(plan, draw)) else { return };
         pass.set_pipeline(pipeline);
-        pass.set_bind_group_checked(0, self.frame.bind_group(), number);
+        pass.set_bind_group_checked(0, self.frame.bind_group(), place);
         pass.set_stencil_reference(draw.stencil_reference.into());
         let [x, y, width, height] = draw.scissor;
         pass.set_scissor_rect(x, y, width, height);
@@ -243,16 +252,23 @@ impl Encode<'_> {
                 pass.draw(if bands { 0..BANDS * 6 } else { 0..3 }, 0..1);
                 drawn.draws += 1;
             }
-            DrawSet::Surfaces(surfaces) => self.record_surfaces(pass, scene, surfaces, drawn),
-            DrawSet::Volumes(parts) => self.record_volumes(pass, plan, scene, (number, parts), drawn),
-            DrawSet::Enclosure(_) => self.record_enclosure(pass, number, drawn),
+            DrawSet::Surfaces(surfaces) => self.record_surfaces(pass, scene, surfaces, place.view, drawn),
+            DrawSet::Volumes(parts) => self.record_volumes(pass, plan, scene, (place.number, parts), drawn),
+            DrawSet::Enclosure(_) => self.record_enclosure(pass, place.number, drawn),
             DrawSet::Labels(_) => self.record_labels(pass, drawn),
             DrawSet::Strokes(_) => self.record_lines(pass, drawn),
-            DrawSet::Edges(instances) => self.record_edges(pass, scene, instances, drawn),
+            DrawSet::Edges(instances) => self.record_edges(pass, scene, instances, place.view, drawn),
         }
     }
 
-    fn record_surfaces(&self, pass: &mut wgpu::RenderPass<'_>, scene: &Scene, surfaces: &[Surface], drawn: &mut Drawn) {
+    fn record_surfaces(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        scene: &Scene,
+        surfaces: &[Surface],
+        view: usize,
+        drawn: &mut Drawn,
+    ) {
         let instances: Vec<_> = scene.instances().collect();
         let mut bound_instance = None;
         let mut bound_material = None;
@@ -279,7 +295,7 @@ impl Encode<'_> {
                 pass.set_bind_group(1, &self.buffers.materials[primitive.material], &[]);
                 bound_material = Some(primitive.material);
             }
-            let object = u32::try_from(surface.instance).unwrap_or(0);
+            let object = u32::try_from(view * instances.len() + surface.instance).unwrap_or(0);
             let count = u32::try_from(run.len()).unwrap_or(1);
             pass.draw_indexed(primitive.first_index..primitive.first_index + primitive.index_count, 0, object..object + count);
             drawn.draws += 1;
@@ -383,14 +399,14 @@ impl Encode<'_> {
         drawn.triangles += u64::from(index_count / 3);
     }
 
-    fn record_edges(&self, pass: &mut wgpu::RenderPass<'_>, scene: &Scene, shown: &[usize], drawn: &mut Drawn) {
+    fn record_edges(&self, pass: &mut wgpu::RenderPass<'_>, scene: &Scene, shown: &[usize], view: usize, drawn: &mut Drawn) {
         let instances: Vec<_> = scene.instances().collect();
         for &instance in shown {
             let mesh_index = instances[instance].1.mesh.unwrap_or(0);
             let Some((edges, count)) = &self.buffers.meshes[mesh_index].edges else { continue };
             pass.set_vertex_buffer(0, self.buffers.vertices(instance, mesh_index).positions.slice(..));
             pass.set_index_buffer(edges.slice(..), wgpu::IndexFormat::Uint32);
-            let object = u32::try_from(instance).unwrap_or(0);
+            let object = u32::try_from(view * instances.len() + instance).unwrap_or(0);
             pass.draw_indexed(0..*count, 0, object..object + 1);
             drawn.draws += 1;
         }

@@ -1,5 +1,7 @@
 //! What changes with every frame: matrices, lights, and the indices of shadow volumes.
 
+use std::collections::HashMap;
+
 use bytemuck::cast_slice;
 use glam::{DAffine3, DMat3, DMat4, DVec4, Mat4, Vec3, Vec4};
 
@@ -9,19 +11,21 @@ use super::merged::Merged;
 use super::scene_buffers::SceneBuffers;
 use super::slides::Slides;
 use super::types::{Draw, Frame, Light, Object, Volume};
-use crate::frame::{DrawSet, FramePlan, Method, Part, VolumePart};
+use crate::frame::{DrawSet, FramePlan, Method, Part, View, VolumePart, VolumePlan, Window};
 use crate::geometry::ending::NEVER_ENDS;
 use crate::geometry::light_in_object;
-use crate::geometry::volume::{Caster, VolumeIndex as _, VolumeIndices, VolumeParts, VolumeScratch};
+use crate::geometry::volume::{Caster, Outline, VolumeIndex as _, VolumeIndices, VolumeParts, VolumeScratch};
 use crate::scene::{LightKind, Pose, PosedLight, Scene};
 use crate::settings::Accumulation;
 
 /// Uniforms are read at offsets of this many bytes: WebGPU's default alignment.
-pub const DRAW_STRIDE: u64 = 256;
+pub const STRIDE: u64 = 256;
 
 /// Buffers written once a frame, grown when they must, and the bind group over them.
 pub struct FrameBuffers {
-    frame: Growing,
+    /// One for each view.
+    frames: Growing,
+    /// Every instance of the first view, then of the next.
     objects: Growing,
     lights: Growing,
     volumes: Growing,
@@ -53,6 +57,7 @@ struct Scratch {
     objects: Vec<Object>,
     lights: Vec<Light>,
     volumes: Vec<Volume>,
+    frames: Vec<u8>,
     draws: Vec<u8>,
     indices: Vec<u32>,
     short_indices: Vec<u16>,
@@ -105,7 +110,7 @@ impl Default for FrameBuffers {
         let uniform = wgpu::BufferUsages::UNIFORM;
         let storage = wgpu::BufferUsages::STORAGE;
         Self {
-            frame: Growing::new("frame", uniform),
+            frames: Growing::new("frames", uniform),
             objects: Growing::new("objects", storage),
             lights: Growing::new("lights", storage),
             volumes: Growing::new("volumes", storage),
@@ -170,16 +175,18 @@ impl FrameBuffers {
         for (_, draw) in plan.draws() {
             let light = draw.light.and_then(|light| scratch.lights.get(light)).copied().unwrap_or_default();
             let uniform = Draw { constant: draw.constant, light };
-            scratch.draws.extend_from_slice(bytemuck::bytes_of(&uniform));
-            scratch.draws.resize(scratch.draws.len().next_multiple_of(DRAW_STRIDE as usize), 0);
+            append(&mut scratch.draws, bytemuck::bytes_of(&uniform));
         }
-        let frame = frame(plan, scene, pose);
+        scratch.frames.clear();
+        for view in &plan.views {
+            append(&mut scratch.frames, bytemuck::bytes_of(&frame(plan, view, scene, pose)));
+        }
 
-        grown |= self.frame.write(context, bytemuck::bytes_of(&frame), 0);
+        grown |= self.frames.write(context, &scratch.frames, STRIDE as usize);
         grown |= self.objects.write(context, cast_slice(&scratch.objects), size_of::<Object>());
         grown |= self.lights.write(context, cast_slice(&scratch.lights), size_of::<Light>());
         grown |= self.volumes.write(context, cast_slice(&scratch.volumes), size_of::<Volume>());
-        grown |= self.draws.write(context, &scratch.draws, DRAW_STRIDE as usize);
+        grown |= self.draws.write(context, &scratch.draws, STRIDE as usize);
         self.merged.write(context);
         self.indices.write(context, cast_slice(&scratch.indices), 4);
         self.cutout_vertices.write(context, cast_slice(&scratch.cutouts.vertices), 16);
@@ -196,21 +203,20 @@ impl FrameBuffers {
     }
 
     fn make_bind_group(&self, context: &Context, layout: &wgpu::BindGroupLayout) -> Option<wgpu::BindGroup> {
-        let draws = wgpu::BufferBinding {
-            buffer: self.draws.buffer()?,
-            offset: 0,
-            size: std::num::NonZeroU64::new(size_of::<Draw>() as u64),
+        let one_of = |buffer, size: usize| {
+            let size = std::num::NonZeroU64::new(size as u64);
+            wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size })
         };
         let (slides, slide_sampler) = self.slides.get()?;
         Some(context.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("frame"),
             layout,
             entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: self.frame.buffer()?.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 0, resource: one_of(self.frames.buffer()?, size_of::<Frame>()) },
                 wgpu::BindGroupEntry { binding: 1, resource: self.objects.buffer()?.as_entire_binding() },
                 wgpu::BindGroupEntry { binding: 2, resource: self.lights.buffer()?.as_entire_binding() },
                 wgpu::BindGroupEntry { binding: 3, resource: self.volumes.buffer()?.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 4, resource: wgpu::BindingResource::Buffer(draws) },
+                wgpu::BindGroupEntry { binding: 4, resource: one_of(self.draws.buffer()?, size_of::<Draw>()) },
                 wgpu::BindGroupEntry { binding: 5, resource: wgpu::BindingResource::TextureView(slides) },
                 wgpu::BindGroupEntry { binding: 6, resource: wgpu::BindingResource::Sampler(slide_sampler) },
             ],
@@ -219,6 +225,7 @@ impl FrameBuffers {
 
     /// Only the parts that some step draws are built.
     fn build_volumes(&mut self, buffers: &SceneBuffers, plan: &FramePlan, scene: &Scene, pose: &Pose) {
+        let same_shape = same_shape(plan);
         let scratch = &mut self.scratch;
         scratch.parts.clear();
         scratch.parts.resize(plan.volumes.len(), None);
@@ -227,7 +234,8 @@ impl FrameBuffers {
                 for part in parts {
                     let outline = plan.volumes[part.volume].outline;
                     let finite = plan.volumes[part.volume].extrusion.is_some();
-                    let wanted = scratch.parts[part.volume].get_or_insert(VolumeParts { outline, finite, ..VolumeParts::NONE });
+                    let first = same_shape[part.volume];
+                    let wanted = scratch.parts[first].get_or_insert(VolumeParts { outline, finite, ..VolumeParts::NONE });
                     match part.part {
                         Part::Sides | Part::SidesTurned => wanted.sides = true,
                         Part::LightCapKept | Part::LightCapTurned => wanted.light_cap = true,
@@ -243,25 +251,33 @@ impl FrameBuffers {
         self.volume_indices.clear();
         self.first_vertices.clear();
         let instances: Vec<_> = scene.instances().collect();
-        for (volume, wanted) in plan.volumes.iter().zip(&scratch.parts) {
+        for (number, (volume, wanted)) in plan.volumes.iter().zip(&scratch.parts).enumerate() {
             let (node_index, node, mesh) = instances[volume.instance];
             let light = light_in_object(&pose.world_from_object[node_index], &pose.lights[volume.light]).as_vec4();
             scratch.volumes.push(Volume {
                 light_in_object: light.to_array(),
                 end_in_object: end_in_object(volume.end, &pose.world_from_object[node_index]).to_array(),
                 thrown: match volume.method {
-                    Method::ZPlus | Method::ZPlusMirrored => {
-                        near_from_object(plan, &pose.lights[volume.light], &pose.world_from_object[node_index])
-                    }
+                    Method::ZPlus | Method::ZPlusMirrored => near_from_object(
+                        &plan.views[volume.view],
+                        &pose.lights[volume.light],
+                        &pose.world_from_object[node_index],
+                    ),
                     _ => volume.cutout.as_ref().map_or(Mat4::IDENTITY, thrown),
                 }
                 .to_cols_array_2d(),
-                object: u32::try_from(volume.instance).unwrap_or(0),
+                object: u32::try_from(volume.view * instances.len() + volume.instance).unwrap_or(0),
                 by_matrix: u32::from(volume.cutout.is_some()),
                 #[expect(clippy::cast_possible_truncation, reason = "the GPU works in f32")]
                 extrusion: volume.extrusion.unwrap_or(0.0) as f32,
                 _pad: 0,
             });
+            let first = same_shape[number];
+            if first != number {
+                self.volume_indices.push(self.volume_indices[first].clone());
+                self.first_vertices.push(None);
+                continue;
+            }
             let Some(parts) = *wanted else {
                 self.volume_indices.push((VolumeIndices::default(), wgpu::IndexFormat::Uint16));
                 self.first_vertices.push(None);
@@ -334,34 +350,57 @@ impl FrameBuffers {
     }
 
     fn describe_objects(&mut self, plan: &FramePlan, scene: &Scene, pose: &Pose) {
-        let clip_from_world = plan.views[0].camera.clip_from_world();
+        let described = |view: &View| {
+            let clip_from_world = view.camera.clip_from_world();
+            scene.instances().map(move |(node, ..)| object(&clip_from_world, &pose.world_from_object[node]))
+        };
         self.scratch.objects.clear();
-        self.scratch.objects.extend(scene.instances().map(|(node, ..)| {
-            let world_from_object = DMat4::from(pose.world_from_object[node]);
-            let linear = DMat3::from_mat4(world_from_object);
-            // The cofactor matrix is the inverse transpose times the determinant: it needs no
-            // inverse, and its sign is put right so that mirrored objects keep their outside.
-            let cofactors = DMat3::from_cols(
-                linear.y_axis.cross(linear.z_axis),
-                linear.z_axis.cross(linear.x_axis),
-                linear.x_axis.cross(linear.y_axis),
-            ) * linear.determinant().signum();
-            Object {
-                clip_from_object: (clip_from_world * world_from_object).as_mat4().to_cols_array_2d(),
-                world_from_object: world_from_object.as_mat4().to_cols_array_2d(),
-                normal_from_object: Mat4::from_mat3(cofactors.as_mat3()).to_cols_array_2d(),
-            }
-        }));
+        self.scratch.objects.extend(plan.views.iter().flat_map(described));
     }
 
     /// Indices built this frame, and their bytes.
     #[must_use]
     pub fn index_count(&self) -> [u64; 2] {
-        let short = self.volume_indices.iter().filter(|(_, format)| *format == wgpu::IndexFormat::Uint16);
-        let short = short.map(|(volume, _)| u64::from(volume.triangles()) * 3).sum::<u64>();
+        // In triangles: without what may fill up the last four bytes.
+        let short = self.scratch.short_indices.len() as u64 / 3 * 3;
         let long = self.scratch.indices.len() as u64;
         [short + long, short * 2 + long * 4]
     }
+}
+
+/// One instance as a view sees it.
+fn object(clip_from_world: &DMat4, world_from_object: &DAffine3) -> Object {
+    let world_from_object = DMat4::from(*world_from_object);
+    let linear = DMat3::from_mat4(world_from_object);
+    // The cofactor matrix is the inverse transpose times the determinant: it needs no
+    // inverse, and its sign is put right so that mirrored objects keep their outside.
+    let cofactors = DMat3::from_cols(
+        linear.y_axis.cross(linear.z_axis),
+        linear.z_axis.cross(linear.x_axis),
+        linear.x_axis.cross(linear.y_axis),
+    ) * linear.determinant().signum();
+    Object {
+        clip_from_object: (*clip_from_world * world_from_object).as_mat4().to_cols_array_2d(),
+        world_from_object: world_from_object.as_mat4().to_cols_array_2d(),
+        normal_from_object: Mat4::from_mat3(cofactors.as_mat3()).to_cols_array_2d(),
+    }
+}
+
+/// At the next offset that a uniform may have.
+fn append(bytes: &mut Vec<u8>, uniform: &[u8]) {
+    bytes.extend_from_slice(uniform);
+    bytes.resize(bytes.len().next_multiple_of(STRIDE as usize), 0);
+}
+
+/// For each volume the first whose indices are its own too: one caster's in one light, seen in several views.
+fn same_shape(plan: &FramePlan) -> Vec<usize> {
+    let mut first: HashMap<(usize, usize, bool, bool), usize> = HashMap::new();
+    let shape = |(number, volume): (usize, &VolumePlan)| {
+        let plain = volume.cutout.is_none() && volume.flaw.is_none() && volume.method != Method::Dropped;
+        let key = (volume.instance, volume.light, volume.outline == Outline::Polygons, volume.extrusion.is_some());
+        if plain { *first.entry(key).or_insert(number) } else { number }
+    };
+    plan.volumes.iter().enumerate().map(shape).collect()
 }
 
 /// Where a part of a volume stands among the indices.
@@ -377,9 +416,9 @@ pub fn range_of(indices: &VolumeIndices, part: Part) -> std::ops::Range<u32> {
 }
 
 /// Object space to clip space, as the light sees it through the eye's near rectangle.
-fn near_from_object(plan: &FramePlan, light: &PosedLight, world_from_object: &DAffine3) -> Mat4 {
+fn near_from_object(view: &View, light: &PosedLight, world_from_object: &DAffine3) -> Mat4 {
     // Only lights that look through it have volumes counted so.
-    let through = plan.views[0].camera.through_light(light);
+    let through = view.camera.through_light(light);
     through.map_or(Mat4::IDENTITY, |through| (through.clip_from_world * DMat4::from(*world_from_object)).as_mat4())
 }
 
@@ -391,11 +430,11 @@ fn end_in_object(end: Option<DVec4>, world_from_object: &DAffine3) -> Vec4 {
     (normal.extend(offset) / normal.length()).as_vec4()
 }
 
-fn frame(plan: &FramePlan, scene: &Scene, pose: &Pose) -> Frame {
+fn frame(plan: &FramePlan, view: &View, scene: &Scene, pose: &Pose) -> Frame {
     #[expect(clippy::cast_precision_loss, reason = "pixels fit f32 exactly")]
     let size = plan.size.map(|side| side as f32);
     Frame {
-        eye: plan.views[0].camera.eye.as_vec3().to_array(),
+        eye: view.camera.eye.as_vec3().to_array(),
         exposure: plan.exposure / scale(plan),
         scale: scale(plan),
         ambient_sky: scene.environment.ambient_sky.to_array(),
@@ -404,10 +443,11 @@ fn frame(plan: &FramePlan, scene: &Scene, pose: &Pose) -> Frame {
         light_count: u32::try_from(pose.lights.len()).unwrap_or(u32::MAX),
         background_top: scene.environment.background[0].to_array(),
         #[expect(clippy::cast_possible_truncation, reason = "the GPU works in f32")]
-        pixel: ((plan.views[0].camera.vertical_fov / 2.0).tan() * 2.0 / f64::from(plan.size[1])) as f32,
+        pixel: ((view.camera.vertical_fov / 2.0).tan() * 2.0 / f64::from(plan.size[1])) as f32,
         background_bottom: scene.environment.background[1].to_array(),
         size,
-        clip_from_world: plan.views[0].camera.clip_from_world().as_mat4().to_cols_array_2d(),
+        clip_from_world: view.camera.clip_from_world().as_mat4().to_cols_array_2d(),
+        clip_plane: view.through.as_ref().map_or(Vec4::ZERO, Window::clip_plane).to_array(),
         ..Frame::default()
     }
 }

@@ -114,7 +114,7 @@ impl Pipelines {
         let frame_layout = layout(
             "frame",
             &[
-                uniform(0, size_of::<Frame>(), false),
+                uniform(0, size_of::<Frame>(), true),
                 storage(1, size_of::<Object>()),
                 storage(2, size_of::<Light>()),
                 storage(3, size_of::<Volume>()),

@@ -33,6 +33,8 @@ pub struct Frame {
     pub _pad2: [f32; 2],
     /// By columns. Not what places vertices: only the failure of mismatched arithmetic is computed by it.
     pub clip_from_world: [[f32; 4]; 4],
+    /// World space: nothing under it is drawn by what asks. Of views by way of a mirror.
+    pub clip_plane: [f32; 4],
 }
 
 /// `struct Object` of `shared/frame.wgsl`; matrices by columns.

@@ -81,6 +81,7 @@ pub fn above(scene: &Scene, pose: &Pose, eye: &Camera, light: usize) -> Above {
         far: None,
         focus_distance: place.y - middle.y,
         shift: DVec2::ZERO,
+        mirrored: false,
     };
     Above { camera, content, cut }
 }

@@ -35,6 +35,8 @@ pub struct Caster<'a> {
     pub pose: &'a Pose,
     /// The view it is counted for.
     pub view: &'a View,
+    /// Its number among the plan's.
+    pub view_number: usize,
     /// Eye and near rectangle of that view.
     pub near_pyramid: &'a NearPyramid,
     /// What [`Self::across_near_plane`] found, once asked: the same for every light.
@@ -202,6 +204,7 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
             counted.push((caster, volumes.len()));
         }
         volumes.push(VolumePlan {
+            view: caster.view_number,
             instance: caster.instance,
             light,
             method,
