@@ -108,7 +108,8 @@ fn shared_structs_have_the_same_layout() {
             background_bottom,
             scale,
             size,
-            clip_from_world
+            clip_from_world,
+            clip_plane
         ]
     );
     same_layout!("lit.wgsl", "Object", types::Object, [clip_from_object, world_from_object, normal_from_object]);
