@@ -158,3 +158,16 @@ pub struct State {
     /// What the near plane does.
     pub near_plane: NearPlane,
 }
+
+impl State {
+    /// What covers the picture, by itself: drawn whole, whatever depth and stencil hold, writing neither, nor
+    /// colour.
+    pub const FLAT: Self = Self {
+        depth: Depth::IGNORE,
+        stencil: StencilState::IGNORE,
+        color: None,
+        cull: Cull::None,
+        winding: Winding::Ccw,
+        near_plane: NearPlane::Clip,
+    };
+}

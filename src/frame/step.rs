@@ -20,6 +20,12 @@ pub struct Step {
 }
 
 impl Step {
+    /// A draw for the eye's view; `why` is one sentence.
+    #[must_use]
+    pub fn drawing(label: impl Into<String>, why: impl Into<String>, draw: Draw) -> Self {
+        Self { label: label.into(), why: why.into(), view: 0, action: Action::Draw(Box::new(draw)) }
+    }
+
     /// The pixels it draws in; `None` where it clears.
     #[must_use]
     pub fn scissor(&self) -> Option<[u32; 4]> {
@@ -87,6 +93,24 @@ pub struct Draw {
     pub constant: [f32; 4],
     /// What is drawn.
     pub set: DrawSet,
+}
+
+impl Draw {
+    /// A draw into the scene by [`State::FLAT`], of no light and no colour: what it has besides is said over it.
+    #[must_use]
+    pub fn plain(program: Program, set: DrawSet, scissor: [u32; 4]) -> Self {
+        Self {
+            program,
+            look: Look::default(),
+            target: Target::Scene,
+            state: State::FLAT,
+            stencil_reference: 0,
+            scissor,
+            light: None,
+            constant: [0.0; 4],
+            set,
+        }
+    }
 }
 
 /// What a step's surfaces and light have, so that pixels pay for nothing else: the shaders are

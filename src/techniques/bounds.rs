@@ -11,9 +11,8 @@ use super::above::Above;
 use super::cases::Class;
 use super::show;
 use super::surfaces::{self, SurfaceGroup, Tint};
-use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
-use crate::frame::stencil::StencilState;
-use crate::frame::{Action, Camera, Draw, DrawSet, Look, Method, Program, Step, Stroke, Target, VolumePlan};
+use crate::frame::state::{Blend, State};
+use crate::frame::{Action, Camera, Draw, DrawSet, Method, Program, Step, Stroke, Target, VolumePlan};
 use crate::geometry::BOX_EDGES;
 use crate::geometry::clip::hull;
 use crate::geometry::frustum::cube;
@@ -287,27 +286,11 @@ pub fn cut(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
 /// The lines over the finished picture.
 #[must_use]
 pub fn step(strokes: Vec<Stroke>, scissor: [u32; 4]) -> Step {
-    Step {
-        label: "bounds".into(),
-        why: "Draws the eye's frustum, the light's scissor as a slice of it, ranges and bounds over the finished picture.".into(),
-        view: 0,
-        action: Action::Draw(Box::new(Draw {
-            program: Program::Lines,
-            look: Look::default(),
-            target: Target::Output,
-            state: State {
-                depth: Depth::IGNORE,
-                stencil: StencilState::IGNORE,
-                color: Some(Blend::Over),
-                cull: Cull::None,
-                winding: Winding::Ccw,
-                near_plane: NearPlane::Clip,
-            },
-            stencil_reference: 0,
-            scissor,
-            light: None,
-            constant: [0.0; 4],
-            set: DrawSet::Strokes(strokes),
-        })),
-    }
+    let why = "Draws the eye's frustum, the light's scissor as a slice of it, ranges and bounds over the finished picture.";
+    let draw = Draw {
+        target: Target::Output,
+        state: State { color: Some(Blend::Over), ..State::FLAT },
+        ..Draw::plain(Program::Lines, DrawSet::Strokes(strokes), scissor)
+    };
+    Step::drawing("bounds", why, draw)
 }

@@ -14,9 +14,7 @@ use super::{Row, depth_bounds, wide};
 use crate::frame::plan::View;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
-use crate::frame::{
-    Action, Capabilities, Cutout, Draw, DrawSet, Look, Method, Part, Program, Step, Target, VolumePart, VolumePlan,
-};
+use crate::frame::{Capabilities, Cutout, Draw, DrawSet, Method, Part, Program, Step, Target, VolumePart, VolumePlan};
 use crate::geometry::eye_count::{EyeCount, holding_count, inside_solid};
 use crate::geometry::frustum::NearPyramid;
 use crate::geometry::light_in_object;
@@ -332,29 +330,13 @@ pub(super) fn full_screen(
     reference: u8,
     ask: &Ask<'_>,
 ) -> Step {
-    Step {
-        label,
-        why: why.into(),
-        view: 0,
-        action: Action::Draw(Box::new(Draw {
-            program,
-            look: Look::default(),
-            target: Target::Scene,
-            state: State {
-                depth: Depth::IGNORE,
-                stencil,
-                color: None,
-                cull: Cull::None,
-                winding: Winding::Ccw,
-                near_plane: NearPlane::Clip,
-            },
-            stencil_reference: reference,
-            scissor: ask.scissor,
-            light: Some(ask.light),
-            constant: [0.0; 4],
-            set: DrawSet::FullScreen,
-        })),
-    }
+    let draw = Draw {
+        state: State { stencil, ..State::FLAT },
+        stencil_reference: reference,
+        light: Some(ask.light),
+        ..Draw::plain(program, DrawSet::FullScreen, ask.scissor)
+    };
+    Step::drawing(label, why, draw)
 }
 
 /// Parts of volumes that are counted by the same state: one step for each winding.
@@ -412,29 +394,22 @@ impl Group {
             _ => "",
         };
         let stencil = (self.stencil)(budget);
-        Step {
-            label: format!("light {light}: {}{faces}{mirrored}", self.label),
-            why: self.why.into(),
-            view: 0,
-            action: Action::Draw(Box::new(Draw {
-                program: self.program,
-                look: Look::default(),
-                target: self.target,
-                state: State {
-                    depth: self.depth,
-                    // A point without bits to count in has one to turn over.
-                    stencil: if budget.count_mask == 0 { stencil.turning_over(budget.verdict_mask) } else { stencil },
-                    color: self.color,
-                    cull: self.cull,
-                    winding,
-                    near_plane: self.near_plane,
-                },
-                stencil_reference: 0,
-                scissor,
-                light: Some(light),
-                constant: self.constant,
-                set: DrawSet::Volumes(parts),
-            })),
-        }
+        let state = State {
+            depth: self.depth,
+            // A point without bits to count in has one to turn over.
+            stencil: if budget.count_mask == 0 { stencil.turning_over(budget.verdict_mask) } else { stencil },
+            color: self.color,
+            cull: self.cull,
+            winding,
+            near_plane: self.near_plane,
+        };
+        let draw = Draw {
+            target: self.target,
+            state,
+            light: Some(light),
+            constant: self.constant,
+            ..Draw::plain(self.program, DrawSet::Volumes(parts), scissor)
+        };
+        Step::drawing(format!("light {light}: {}{faces}{mirrored}", self.label), self.why, draw)
     }
 }

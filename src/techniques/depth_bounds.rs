@@ -25,9 +25,9 @@
 use glam::DVec3;
 
 use super::culling::Interest;
-use crate::frame::state::{Cull, Depth, NearPlane, State, Winding};
+use crate::frame::state::{Depth, State};
 use crate::frame::stencil::{BitBudget, StencilState};
-use crate::frame::{Action, Camera, Draw, DrawSet, Look, Program, Step, Target};
+use crate::frame::{Camera, Draw, DrawSet, Program, Step};
 use crate::geometry::Enclosure;
 use crate::scene::{LightKind, PosedLight};
 use crate::settings::LightBounds;
@@ -74,29 +74,12 @@ fn margin(center: DVec3, radius: f64, camera: &Camera) -> f64 {
 /// The step that marks them, in the light's `scissor`.
 #[must_use]
 pub fn mark(light: usize, solid: Enclosure, budget: BitBudget, scissor: [u32; 4]) -> Step {
-    Step {
-        label: format!("light {light}: mark its bounds"),
-        why: "A solid about all that the light reaches: where one of its two faces is behind the surface, the surface lies \
-              within, and only there volumes are counted."
-            .into(),
-        view: 0,
-        action: Action::Draw(Box::new(Draw {
-            program: Program::Bounds,
-            look: Look::default(),
-            target: Target::Scene,
-            state: State {
-                depth: Depth::NEARER,
-                stencil: StencilState::mark_bounds(budget),
-                color: None,
-                cull: Cull::None,
-                winding: Winding::Ccw,
-                near_plane: NearPlane::Clip,
-            },
-            stencil_reference: 0,
-            scissor,
-            light: Some(light),
-            constant: [0.0; 4],
-            set: DrawSet::Enclosure(solid),
-        })),
-    }
+    let why = "A solid about all that the light reaches: where one of its two faces is behind the surface, the surface lies \
+               within, and only there volumes are counted.";
+    let draw = Draw {
+        state: State { depth: Depth::NEARER, stencil: StencilState::mark_bounds(budget), ..State::FLAT },
+        light: Some(light),
+        ..Draw::plain(Program::Bounds, DrawSet::Enclosure(solid), scissor)
+    };
+    Step::drawing(format!("light {light}: mark its bounds"), why, draw)
 }

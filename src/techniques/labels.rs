@@ -5,9 +5,8 @@
 //! out and counted. Names are set in a fixed width, so that the plan knows how large they are without
 //! any font.
 
-use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
-use crate::frame::stencil::StencilState;
-use crate::frame::{Action, Camera, Draw, DrawSet, Label, LabelKind, Look, Program, Step, Target};
+use crate::frame::state::{Blend, State};
+use crate::frame::{Camera, Draw, DrawSet, Label, LabelKind, Program, Step, Target};
 use crate::scene::{LightKind, Pose, Scene};
 
 /// A character's width to the height of the letters, of the fixed-width font (Hack: 1233 of 2048).
@@ -108,29 +107,13 @@ fn place(label: &Label, [width, height]: [f32; 2], placed: &[Label]) -> Option<[
 /// Names over the finished picture, which is `target`.
 #[must_use]
 pub fn step(labels: Vec<Label>, target: Target, scissor: [u32; 4]) -> Step {
-    Step {
-        label: "labels".into(),
-        why: "Names lights and casters over the finished picture: they are no part of the scene and receive no shadows.".into(),
-        view: 0,
-        action: Action::Draw(Box::new(Draw {
-            program: Program::Labels,
-            look: Look::default(),
-            target,
-            state: State {
-                depth: Depth::IGNORE,
-                stencil: StencilState::IGNORE,
-                color: Some(Blend::Over),
-                cull: Cull::None,
-                winding: Winding::Ccw,
-                near_plane: NearPlane::Clip,
-            },
-            stencil_reference: 0,
-            scissor,
-            light: None,
-            constant: [0.0; 4],
-            set: DrawSet::Labels(labels),
-        })),
-    }
+    let why = "Names lights and casters over the finished picture: they are no part of the scene and receive no shadows.";
+    let draw = Draw {
+        target,
+        state: State { color: Some(Blend::Over), ..State::FLAT },
+        ..Draw::plain(Program::Labels, DrawSet::Labels(labels), scissor)
+    };
+    Step::drawing("labels", why, draw)
 }
 
 #[cfg(test)]

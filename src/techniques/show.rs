@@ -1,9 +1,9 @@
 //! Steps that show what is otherwise unseen, and the last one of every frame: the picture itself.
 
 use crate::frame::plan::VolumePlan;
-use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
+use crate::frame::state::{Blend, Depth, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
-use crate::frame::{Action, Draw, DrawSet, Gather, Look, Method, Part, Program, Step, Target, VolumePart};
+use crate::frame::{Action, Draw, DrawSet, Gather, Method, Part, Program, Step, Target, VolumePart};
 
 /// One light's volumes as coloured glass over the picture (M image 2).
 #[must_use]
@@ -21,29 +21,14 @@ pub fn volumes(plans: &[VolumePlan], light: usize, scissor: [u32; 4]) -> Vec<Ste
         if parts.is_empty() {
             continue;
         }
-        steps.push(Step {
-            label: format!("light {light}: volumes as glass"),
-            why: "Shows where the light's shadow volumes run: every layer of glass is one face the eye looks through.".into(),
-            view: 0,
-            action: Action::Draw(Box::new(Draw {
-                program: Program::VolumeGlass,
-                look: Look::default(),
-                target: Target::Scene,
-                state: State {
-                    depth: Depth::NEARER,
-                    stencil: StencilState::IGNORE,
-                    color: Some(Blend::Over),
-                    cull: Cull::None,
-                    winding,
-                    near_plane: NearPlane::Clip,
-                },
-                stencil_reference: 0,
-                scissor,
-                light: Some(light),
-                constant: [0.45, 0.16, 0.75, 0.11],
-                set: DrawSet::Volumes(parts),
-            })),
-        });
+        let why = "Shows where the light's shadow volumes run: every layer of glass is one face the eye looks through.";
+        let draw = Draw {
+            state: State { depth: Depth::NEARER, color: Some(Blend::Over), winding, ..State::FLAT },
+            light: Some(light),
+            constant: [0.45, 0.16, 0.75, 0.11],
+            ..Draw::plain(Program::VolumeGlass, DrawSet::Volumes(parts), scissor)
+        };
+        steps.push(Step::drawing(format!("light {light}: volumes as glass"), why, draw));
     }
     steps
 }
@@ -51,57 +36,26 @@ pub fn volumes(plans: &[VolumePlan], light: usize, scissor: [u32; 4]) -> Vec<Ste
 /// Darkens the lit picture where a caster's count is not zero, and sets the count back (B).
 #[must_use]
 pub fn dark(light: usize, color: [f32; 4], budget: BitBudget, scissor: [u32; 4]) -> Step {
-    Step {
-        label: format!("light {light}: darken"),
-        why: "A dark quad over all pixels whose count is not zero; it sets the count back for the next caster.".into(),
-        view: 0,
-        action: Action::Draw(Box::new(Draw {
-            program: Program::Dark,
-            look: Look::default(),
-            target: Target::Scene,
-            state: State {
-                depth: Depth::IGNORE,
-                stencil: StencilState::reset_where_counted(budget),
-                color: Some(Blend::Over),
-                cull: Cull::None,
-                winding: Winding::Ccw,
-                near_plane: NearPlane::Clip,
-            },
-            stencil_reference: 0,
-            scissor,
-            light: Some(light),
-            constant: color,
-            set: DrawSet::FullScreen,
-        })),
-    }
+    let why = "A dark quad over all pixels whose count is not zero; it sets the count back for the next caster.";
+    let draw = Draw {
+        state: State { stencil: StencilState::reset_where_counted(budget), color: Some(Blend::Over), ..State::FLAT },
+        light: Some(light),
+        constant: color,
+        ..Draw::plain(Program::Dark, DrawSet::FullScreen, scissor)
+    };
+    Step::drawing(format!("light {light}: darken"), why, draw)
 }
 
 /// Every triangle's edges.
 #[must_use]
 pub fn wireframe(instances: usize, scissor: [u32; 4]) -> Step {
-    Step {
-        label: "wireframe".into(),
-        why: "Draws every triangle's edges, pulled a hair towards the eye so that their own surface does not hide them.".into(),
-        view: 0,
-        action: Action::Draw(Box::new(Draw {
-            program: Program::Wireframe,
-            look: Look::default(),
-            target: Target::Scene,
-            state: State {
-                depth: Depth::ON_OR_NEARER,
-                stencil: StencilState::IGNORE,
-                color: Some(Blend::Over),
-                cull: Cull::None,
-                winding: Winding::Ccw,
-                near_plane: NearPlane::Clip,
-            },
-            stencil_reference: 0,
-            scissor,
-            light: None,
-            constant: [0.85, 0.95, 1.0, 0.55],
-            set: DrawSet::Edges((0..instances).collect()),
-        })),
-    }
+    let why = "Draws every triangle's edges, pulled a hair towards the eye so that their own surface does not hide them.";
+    let draw = Draw {
+        state: State { depth: Depth::ON_OR_NEARER, color: Some(Blend::Over), ..State::FLAT },
+        constant: [0.85, 0.95, 1.0, 0.55],
+        ..Draw::plain(Program::Wireframe, DrawSet::Edges((0..instances).collect()), scissor)
+    };
+    Step::drawing("wireframe", why, draw)
 }
 
 /// One light's count in false colour, with a legend; or, where `points_mask` is not zero, how many of these bits
@@ -174,27 +128,10 @@ pub fn gather(gather: Gather, scissor: [u32; 4]) -> Step {
 }
 
 fn full_screen(label: &str, why: &str, program: Program, scissor: [u32; 4]) -> Step {
-    Step {
-        label: label.into(),
-        why: why.into(),
-        view: 0,
-        action: Action::Draw(Box::new(Draw {
-            program,
-            look: Look::default(),
-            target: Target::Output,
-            state: State {
-                depth: Depth::IGNORE,
-                stencil: StencilState::IGNORE,
-                color: Some(Blend::Replace),
-                cull: Cull::None,
-                winding: Winding::Ccw,
-                near_plane: NearPlane::Clip,
-            },
-            stencil_reference: 0,
-            scissor,
-            light: None,
-            constant: [0.0; 4],
-            set: DrawSet::FullScreen,
-        })),
-    }
+    let draw = Draw {
+        target: Target::Output,
+        state: State { color: Some(Blend::Replace), ..State::FLAT },
+        ..Draw::plain(program, DrawSet::FullScreen, scissor)
+    };
+    Step::drawing(label, why, draw)
 }

@@ -92,20 +92,11 @@ const GROUPS: &[Group] = &[
         constant: TURNED,
         ..WIDE
     },
-    dark_caps(Method::ZFail),
-    dark_caps(Method::ZFailCompared),
+    z_fail::dark_caps(Method::ZFail, DARK_CAPS),
+    z_fail::dark_caps(Method::ZFailCompared, DARK_CAPS),
 ];
 
-const fn dark_caps(method: Method) -> Group {
-    Group {
-        method,
-        parts: &[Part::DarkCap],
-        label: "add dark caps",
-        why: "Every surface hides the dark cap: it counts everywhere.",
-        depth: Depth::IGNORE,
-        ..WIDE
-    }
-}
+const DARK_CAPS: Group = Group { label: "add dark caps", depth: Depth::IGNORE, ..WIDE };
 
 /// Before the first volume: nothing is counted.
 pub(super) fn begin(light: usize) -> Step {

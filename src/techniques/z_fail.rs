@@ -80,20 +80,17 @@ pub(super) const GROUPS: &[Group] = &[
         stencil: StencilState::count_z_fail_turned,
         ..Group::PLAIN
     },
-    dark_caps(Method::ZFail),
-    dark_caps(Method::ZFailCompared),
+    dark_caps(Method::ZFail, DARK_CAPS),
+    dark_caps(Method::ZFailCompared, DARK_CAPS),
 ];
 
-const fn dark_caps(method: Method) -> Group {
-    Group {
-        method,
-        parts: &[Part::DarkCap],
-        label: "count dark caps, z-fail",
-        why: "Every surface hides the dark cap: it counts everywhere.",
-        stencil: StencilState::count_z_fail,
-        depth: Depth::NEVER,
-        ..Group::PLAIN
-    }
+const DARK_CAPS: Group =
+    Group { label: "count dark caps, z-fail", stencil: StencilState::count_z_fail, depth: Depth::NEVER, ..Group::PLAIN };
+
+/// The dark caps of volumes counted by `method`, where they count everywhere as `everywhere` says.
+pub(super) const fn dark_caps(method: Method, everywhere: Group) -> Group {
+    let why = "Every surface hides the dark cap: it counts everywhere.";
+    Group { method, parts: &[Part::DarkCap], why, ..everywhere }
 }
 
 /// Z-fail for one caster: how its light cap must be drawn.
