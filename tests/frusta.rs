@@ -1,22 +1,15 @@
 //! The near pyramid and the lights' rectangles never leave out what is there.
 #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 
-use glam::{DAffine3, DMat4, DQuat, DVec3, DVec4, Vec3};
+mod common;
+
+use common::mesh;
+use common::strategies::{camera, pixel, vector};
+use glam::{DAffine3, DQuat, DVec3, Vec3};
 use obscura::frame::Camera;
 use obscura::geometry::Aabb;
 use obscura::geometry::frustum::{NearPyramid, screen_rect};
 use proptest::prelude::*;
-
-fn vector(size: f64) -> impl Strategy<Value = DVec3> {
-    prop::array::uniform3(-size..size).prop_map(DVec3::from)
-}
-
-fn camera() -> impl Strategy<Value = Camera> {
-    (vector(5.0), vector(5.0), 0.2..2.5f64, 0.5..2.0f64, 0.05..2.0f64)
-        .prop_filter_map("eye and target in one place", |(eye, target, fov, aspect, near)| {
-            Camera::look_at(eye, target, fov, aspect, near).ok()
-        })
-}
 
 fn near_corners(camera: &Camera) -> [DVec3; 4] {
     let up = camera.up * (camera.vertical_fov / 2.0).tan() * camera.near;
@@ -45,6 +38,23 @@ proptest! {
     }
 
     #[test]
+    fn a_triangle_through_a_point_of_it_is_a_touch(camera in camera(), world_from_object in placed(), shares in prop::array::uniform5(0.0..1.0f64), others in prop::array::uniform2(vector(4.0)), weights in prop::array::uniform3(0.05..1.0f64)) {
+        prop_assume!(world_from_object.matrix3.determinant().abs() > 1e-3);
+        let points = near_corners(&camera).into_iter().chain([camera.eye]);
+        let total = shares.iter().sum::<f64>();
+        prop_assume!(total > 1e-6);
+        let held = points.zip(shares).map(|(point, share)| point * share).sum::<DVec3>() / total;
+        let held = world_from_object.inverse().transform_point3(held);
+        // The third corner is where the point has these weights in the triangle.
+        let [p, q] = others.map(|other| held + other);
+        let r = held - ((p - held) * weights[0] + (q - held) * weights[1]) / weights[2];
+        let corners = [p, q, r].map(|corner| corner.as_vec3().to_array());
+        let triangle = mesh("triangle", &corners, &[[0, 1, 2]], 0);
+        let pyramid = NearPyramid::of(camera.eye, near_corners(&camera));
+        prop_assert!(pyramid.may_touch_surface(&triangle.topology, &triangle.positions, &world_from_object));
+    }
+
+    #[test]
     fn a_rectangle_holds_every_pixel_of_the_sphere(camera in camera(), center in vector(8.0), radius in 0.01..4.0f64, directions in prop::collection::vec(vector(1.0), 60)) {
         let clip_from_world = camera.clip_from_world();
         let size = [300, 200];
@@ -56,13 +66,6 @@ proptest! {
             prop_assert!(within(pixel[0], x, width) && within(pixel[1], y, height), "{pixel:?} outside {rect:?}");
         }
     }
-}
-
-/// Where a point is drawn, in pixels from the top left; `None` where it is not.
-fn pixel(point: DVec3, clip_from_world: &DMat4, size: [u32; 2]) -> Option<[f64; 2]> {
-    let clip: DVec4 = *clip_from_world * point.extend(1.0);
-    let shown = clip.w > 0.0 && clip.z <= clip.w && clip.x.abs() <= clip.w && clip.y.abs() <= clip.w;
-    shown.then(|| [(clip.x / clip.w + 1.0) / 2.0 * f64::from(size[0]), (1.0 - clip.y / clip.w) / 2.0 * f64::from(size[1])])
 }
 
 /// At (0, 0, 10), looking along -Z, a right angle high and wide.
@@ -100,4 +103,27 @@ fn a_near_pyramid_is_no_larger_than_it_is() {
     assert!(!pyramid.may_touch(&Aabb::EMPTY, &DAffine3::IDENTITY));
     let flat = DAffine3::from_scale_rotation_translation(DVec3::new(9.0, 0.0, 9.0), DQuat::IDENTITY, DVec3::ZERO);
     assert!(pyramid.may_touch(&Aabb { min: Vec3::splat(-5.0), max: Vec3::splat(5.0) }, &flat), "a floor through the eye");
+}
+
+#[test]
+fn an_eye_in_the_hollow_of_a_solid_touches_nothing_of_it() {
+    // A room: a box with a smaller one taken out, as one mesh.
+    let corner = |half: f32, corner: u8| [0, 1, 2].map(|axis| if corner >> axis & 1 == 1 { half } else { -half });
+    let corners: Vec<[f32; 3]> = [2.0, 1.5].into_iter().flat_map(|half| (0..8).map(move |i| corner(half, i))).collect();
+    let quads: [[u32; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let outside = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    let triangles: Vec<[u32; 3]> = outside.clone().chain(outside.map(|[a, b, c]| [a + 8, c + 8, b + 8])).collect();
+    let room = mesh("room", &corners, &triangles, 0);
+    let bounds = Aabb { min: Vec3::splat(-2.0), max: Vec3::splat(2.0) };
+    let looks = |eye: DVec3, target: DVec3| {
+        let camera = Camera::look_at(eye, target, 1.0, 1.0, 0.2).unwrap();
+        let pyramid = NearPyramid::of(camera.eye, camera.near_rectangle());
+        assert!(pyramid.may_touch(&bounds, &DAffine3::IDENTITY), "its box knows no better");
+        pyramid.may_touch_surface(&room.topology, &room.positions, &DAffine3::IDENTITY)
+    };
+    assert!(!looks(DVec3::ZERO, DVec3::NEG_Z) && !looks(DVec3::new(1.2, -1.3, 0.9), DVec3::new(1.0, 0.0, 0.0)));
+    assert!(!looks(DVec3::new(0.0, 0.0, -1.25), DVec3::new(0.0, 0.0, -5.0)), "a hair before the wall");
+    assert!(looks(DVec3::new(0.0, 0.0, -1.35), DVec3::new(0.0, 0.0, -5.0)), "the wall between eye and near plane");
+    assert!(!looks(DVec3::new(0.0, 0.0, -1.35), DVec3::ZERO), "the wall behind the eye");
+    assert!(looks(DVec3::new(0.0, 1.45, 0.0), DVec3::new(0.0, 1.45, 5.0)), "the ceiling across the near rectangle's edge");
 }

@@ -1,22 +1,14 @@
 //! Bodies that have a point in common are never told apart, and rectangles hold all that shows.
 #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 
-use glam::{DAffine3, DMat4, DQuat, DVec3, DVec4, Vec3};
+mod common;
+
+use common::strategies::{camera, pixel, vector};
+use glam::{DAffine3, DQuat, DVec3, DVec4, Vec3};
 use obscura::frame::Camera;
 use obscura::geometry::frustum::hull_rect;
 use obscura::geometry::{Aabb, Body};
 use proptest::prelude::*;
-
-fn vector(size: f64) -> impl Strategy<Value = DVec3> {
-    prop::array::uniform3(-size..size).prop_map(DVec3::from)
-}
-
-fn camera() -> impl Strategy<Value = Camera> {
-    (vector(5.0), vector(5.0), 0.2..2.5f64, 0.5..2.0f64, 0.05..2.0f64)
-        .prop_filter_map("eye and target in one place", |(eye, target, fov, aspect, near)| {
-            Camera::look_at(eye, target, fov, aspect, near).ok()
-        })
-}
 
 fn light() -> impl Strategy<Value = DVec4> {
     (vector(6.0), any::<bool>()).prop_map(|(light, sun)| if sun { light.normalize().extend(0.0) } else { light.extend(1.0) })
@@ -131,13 +123,6 @@ proptest! {
         let within = |at: f64, low: u32, extent: u32| f64::from(low) <= at && at <= f64::from(low + extent);
         prop_assert!(within(shown[0], x, width) && within(shown[1], y, height), "{shown:?} outside {rect:?}");
     }
-}
-
-/// Where a point is drawn, in pixels from the top left; `None` where it is not.
-fn pixel(point: DVec3, clip_from_world: &DMat4, size: [u32; 2]) -> Option<[f64; 2]> {
-    let clip: DVec4 = *clip_from_world * point.extend(1.0);
-    let shown = clip.w > 0.0 && clip.z <= clip.w && clip.x.abs() <= clip.w && clip.y.abs() <= clip.w;
-    shown.then(|| [(clip.x / clip.w + 1.0) / 2.0 * f64::from(size[0]), (1.0 - clip.y / clip.w) / 2.0 * f64::from(size[1])])
 }
 
 #[test]

@@ -78,6 +78,20 @@ fn rays_tell_lit_from_shadow_and_both_sides_of_a_sheet() {
 }
 
 #[test]
+fn where_two_triangles_join_a_rasteriser_may_take_either() {
+    let mut build = sheet_over_floor(1);
+    build.point_light(DVec3::new(0.01, 6.0, 0.02));
+    // The floor's two triangles join where x is z; nothing else is near.
+    let at = |x: f64, z: f64| middle(&build.0, DVec3::new(4.0, 2.0, 0.5), DVec3::new(x, 0.0, z));
+    for joint in [2.5, 3.25, -4.0] {
+        assert_eq!(at(joint, joint), Verdict::Edge, "{joint}");
+        for beside in [0.01, -0.01] {
+            assert_eq!(at(joint, joint + beside), Verdict::Lit, "{joint} {beside}: half a pixel's width does not matter");
+        }
+    }
+}
+
+#[test]
 fn rays_know_culling_the_near_plane_and_what_is_blended() {
     let below = (DVec3::new(0.5, 0.5, 0.5), DVec3::new(0.3, 2.0, 0.3));
     let mut build = sheet_over_floor(0);

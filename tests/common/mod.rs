@@ -7,6 +7,8 @@
     reason = "each test binary uses a part; tests fail by panicking"
 )]
 
+pub mod strategies;
+
 use glam::{DAffine3, DQuat, DVec3, Vec2, Vec3};
 use obscura::director;
 use obscura::frame::FramePlan;
