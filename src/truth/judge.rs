@@ -5,21 +5,12 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use glam::{DVec2, DVec3};
 
 use super::compare::{Verdict, Verdicts};
-use super::mask::Mask;
+use super::eye::{Eye, PLACES, SLACK, Shown, enters};
+use super::path::{Path, Surfaces};
 use super::tree::{Bundle, Stack};
-use super::world::{Asked, Casts, Face, Seen, World};
+use super::world::{Asked, Casts, Face, NONE, World};
 use crate::frame::Camera;
 use crate::scene::{LightKind, PosedLight};
-
-/// The places in a pixel where surfaces are looked for, pixels from its centre.
-const PLACES: [DVec2; 5] = [
-    DVec2::ZERO,
-    DVec2::new(-QUARTER, -QUARTER),
-    DVec2::new(QUARTER, -QUARTER),
-    DVec2::new(-QUARTER, QUARTER),
-    DVec2::new(QUARTER, QUARTER),
-];
-const QUARTER: f64 = 0.25;
 
 /// Where the centre's ray to the light begins when it is moved along the surface, to the right and
 /// down, in [`NUDGE`]s.
@@ -37,15 +28,21 @@ const NUDGE: f64 = 1e-6;
 /// How far before a surface the ray to the light starts, of its depth.
 const HAIR: f64 = 1e-7;
 
-/// What a box is made larger by, of the world's size: much more than double precision is wrong by.
-const SLACK: f64 = 1e-9;
-
 /// Rays between a pixel's points and a light: from each of them, from the centre's moved nearer and
 /// farther, and from the centre to where the light is moved.
 const RAYS: usize = POINTS + 2 + NUDGES.len();
 
 /// How many volumes each ray crosses.
 type Counts = [u8; RAYS];
+
+/// What rays say of each pixel of a picture.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Traced {
+    /// Light by light, what `show shadow` must hold.
+    pub verdicts: Vec<Verdicts>,
+    /// What is seen.
+    pub surfaces: Surfaces,
+}
 
 impl World {
     /// What each pixel must be in `light`, for a picture of `size` pixels.
@@ -63,22 +60,31 @@ impl World {
         size: [u32; 2],
         goes_on: &(dyn Fn(f64) -> bool + Sync),
     ) -> Option<Vec<Verdicts>> {
+        self.trace(camera, lights, size, goes_on).map(|traced| traced.verdicts)
+    }
+
+    /// The same, and which surface each pixel shows, through which mirrors.
+    pub fn trace(
+        &self,
+        camera: &Camera,
+        lights: &[PosedLight],
+        size: [u32; 2],
+        goes_on: &(dyn Fn(f64) -> bool + Sync),
+    ) -> Option<Traced> {
+        let each = lights.len().max(1);
         let rows = self.rows(camera, size, goes_on, |caster, y| {
-            let mut row = vec![Verdict::Edge; lights.len() * size[0] as usize];
-            for (x, verdicts) in (0..size[0]).zip(row.chunks_exact_mut(lights.len().max(1))) {
-                caster.pixel(x, y, lights, verdicts);
-            }
-            row
+            let mut verdicts = vec![Verdict::Edge; each * size[0] as usize];
+            let pixels = (0..size[0]).zip(verdicts.chunks_exact_mut(each));
+            let surfaces: Vec<_> = pixels.map(|(x, verdicts)| caster.pixel(x, y, lights, verdicts)).collect();
+            (verdicts, surfaces)
         })?;
-        let mut all = vec![Verdicts::new(size); lights.len()];
-        for row in rows {
-            for pixel in row.chunks_exact(lights.len().max(1)) {
-                for (verdicts, verdict) in all.iter_mut().zip(pixel) {
-                    verdicts.push(*verdict);
-                }
+        let mut verdicts = vec![Verdicts::new(size); lights.len()];
+        for pixel in rows.iter().flat_map(|(row, _)| row.chunks_exact(each)) {
+            for (verdicts, verdict) in verdicts.iter_mut().zip(pixel) {
+                verdicts.push(*verdict);
             }
         }
-        Some(all)
+        Some(Traced { verdicts, surfaces: Surfaces::new(size, rows.into_iter().flat_map(|(_, surfaces)| surfaces)) })
     }
 
     /// How many volumes of `light` each pixel lies in, modulo 256: what the stencil must hold. None
@@ -92,7 +98,7 @@ impl World {
     /// Whether a point is in shadow of `light`; on a border it may say either.
     #[must_use]
     pub fn shades(&self, point: DVec3, light: &PosedLight) -> bool {
-        let surface = Surface { points: [point; POINTS], displaced: [point; 2], face: u32::MAX };
+        let surface = Surface { points: [point; POINTS], displaced: [point; 2], face: NONE };
         let mut shadow = Shadow::new(self, light, &surface);
         self.tree.descend(&mut shadow, &mut Stack::new());
         light.shadows && shadow.counts[0] > 0
@@ -140,21 +146,10 @@ impl World {
 /// One thread's rays.
 struct Caster<'a> {
     world: &'a World,
-    camera: Camera,
-    size: DVec2,
-    /// One pixel to the right and one down, on the plane one metre before the eye.
-    pixel: [DVec3; 2],
+    eye: Eye,
     stack: Stack,
     /// What cast the last shadow of each light: it may well cast the next.
     last: Vec<Option<u32>>,
-}
-
-/// What a pixel shows.
-#[expect(clippy::large_enum_variant, reason = "one at a time, on the stack")]
-enum Shown {
-    Nothing,
-    Edge,
-    Surface(Surface),
 }
 
 /// What is seen through a pixel.
@@ -169,29 +164,28 @@ struct Surface {
 
 impl<'a> Caster<'a> {
     fn new(world: &'a World, camera: &Camera, size: [u32; 2]) -> Self {
-        let size = DVec2::new(f64::from(size[0]), f64::from(size[1]));
-        let half_height = (camera.vertical_fov / 2.0).tan();
-        let right = camera.forward.cross(camera.up) * (half_height * camera.aspect * 2.0 / size.x);
-        let down = camera.up * (-half_height * 2.0 / size.y);
-        Self { world, camera: *camera, size, pixel: [right, down], stack: Stack::new(), last: Vec::new() }
+        Self { world, eye: Eye::new(camera, size), stack: Stack::new(), last: Vec::new() }
     }
 
-    /// The verdict of each light on one pixel.
-    fn pixel(&mut self, x: u32, y: u32, lights: &[PosedLight], verdicts: &mut [Verdict]) {
-        match self.look(x, y) {
-            Shown::Edge => verdicts.fill(Verdict::Edge),
-            Shown::Nothing => verdicts.fill(Verdict::Nothing),
-            Shown::Surface(surface) => {
-                self.last.resize(lights.len(), None);
-                for (number, (light, verdict)) in lights.iter().zip(verdicts).enumerate() {
-                    *verdict = self.light(number, light, &surface);
-                }
+    /// The verdict of each light on one pixel; gives the mirrors on the way and the instance that is seen,
+    /// where that is decided.
+    fn pixel(&mut self, x: u32, y: u32, lights: &[PosedLight], verdicts: &mut [Verdict]) -> Option<(Path, u32)> {
+        let shown = self.look(x, y)?;
+        let instance = shown.nearest[0].instance;
+        if instance == NONE {
+            verdicts.fill(Verdict::Nothing);
+        } else if let Some(surface) = self.surface(&shown) {
+            self.last.resize(lights.len(), None);
+            for (number, (light, verdict)) in lights.iter().zip(verdicts).enumerate() {
+                *verdict = self.light(number, light, &surface);
             }
         }
+        shown.alone.then_some((shown.path, instance))
     }
 
     fn count(&mut self, x: u32, y: u32, light: &PosedLight) -> Option<u8> {
-        let Shown::Surface(surface) = self.look(x, y) else { return None };
+        let shown = self.look(x, y).filter(|shown| shown.nearest[0].instance != NONE)?;
+        let surface = self.surface(&shown)?;
         let mut shadow = Shadow::new(self.world, light, &surface);
         shadow.counts_on = true;
         self.world.tree.descend(&mut shadow, &mut self.stack);
@@ -199,60 +193,32 @@ impl<'a> Caster<'a> {
         counts.iter().all(|count| *count == counts[0]).then_some(counts[0])
     }
 
-    /// What is seen at the places of a pixel.
-    fn look(&mut self, x: u32, y: u32) -> Shown {
-        let Camera { eye, forward, .. } = self.camera;
-        let [right, down] = self.pixel;
-        let center = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) - self.size / 2.0;
-        // Their part along `forward` is 1: distances are depths.
-        let directions = PLACES.map(|place| forward + right * (center.x + place.x) + down * (center.y + place.y));
-        let nearest = self.meet(directions, QUARTER * (right.abs() + down.abs()).max_element());
-        if nearest.iter().any(|met| !met.sure || met.instance != nearest[0].instance) {
-            return Shown::Edge;
-        }
-        if nearest[0].instance == u32::MAX {
-            return Shown::Nothing;
-        }
-        let at = |direction: DVec3, depth: f64| eye + direction * (depth * (1.0 - HAIR));
+    fn look(&mut self, x: u32, y: u32) -> Option<Shown> {
+        self.world.look(&self.eye, DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5), &mut self.stack)
+    }
+
+    /// The surface that a pixel shows, to be lit; none where rays beside the centre's meet another triangle.
+    fn surface(&mut self, Shown { eye, directions, nearest, .. }: &Shown) -> Option<Surface> {
+        let at = |direction: DVec3, depth: f64| eye.point(direction, depth * (1.0 - HAIR));
         let mut points = [DVec3::ZERO; POINTS];
-        for (point, (direction, met)) in points.iter_mut().zip(directions.iter().zip(&nearest)) {
+        for (point, (direction, met)) in points.iter_mut().zip(directions.iter().zip(nearest)) {
             *point = at(*direction, met.depth);
         }
         // Moved sideways it must begin on the very same triangle: where two join, a rasteriser, which moves
         // corners to the nearest 256th of a pixel, may give the pixel to the one and the edge of a volume
         // that begins there to the other.
         let (depth, moved) = (nearest[0].depth, NUDGE * self.world.size);
-        let (across, along) = (right.normalize(), down.normalize());
+        let [across, along] = eye.pixel.map(DVec3::normalize);
         let sideways = SIDEWAYS.map(|by| directions[0] + (across * by.x + along * by.y) * (moved / depth));
-        let again = self.meet(sideways, moved / depth);
+        let again = self.world.meet(eye, sideways, moved / depth, &mut self.stack);
         if again.iter().any(|met| met.face != nearest[0].face) {
-            return Shown::Edge;
+            return None;
         }
         for (point, (direction, met)) in points[PLACES.len()..].iter_mut().zip(sideways.iter().zip(&again)) {
             *point = at(*direction, met.depth);
         }
         let displaced = [-moved, moved].map(|by| points[0] + directions[0].normalize() * by);
-        Shown::Surface(Surface { points, displaced, face: nearest[0].face })
-    }
-
-    /// The nearest surface in each of some directions, all of them within `spread` of the first, metres for
-    /// each metre of depth.
-    fn meet<const RAYS: usize>(&mut self, directions: [DVec3; RAYS], spread: f64) -> [Nearest; RAYS] {
-        let Camera { eye, forward, near, .. } = self.camera;
-        let mut sight = Sight {
-            world: self.world,
-            eye,
-            forward,
-            near,
-            pixel: self.pixel,
-            inverse: directions[0].recip(),
-            directions,
-            spread: 2.0 * spread,
-            slack: SLACK * (self.world.size + eye.length()),
-            nearest: [Nearest { depth: f64::INFINITY, face: u32::MAX, instance: u32::MAX, sure: true }; RAYS],
-        };
-        self.world.tree.descend(&mut sight, &mut self.stack);
-        sight.nearest
+        Some(Surface { points, displaced, face: nearest[0].face })
     }
 
     /// Whether `light`, the `number`th, reaches all of the points, or none.
@@ -287,74 +253,6 @@ impl<'a> Caster<'a> {
             [true, ..] => Verdict::Shadow,
             [false, ..] => Verdict::Lit,
         }
-    }
-}
-
-/// The rays through one pixel's places.
-struct Sight<'a, const RAYS: usize> {
-    world: &'a World,
-    eye: DVec3,
-    forward: DVec3,
-    near: f64,
-    pixel: [DVec3; 2],
-    directions: [DVec3; RAYS],
-    /// Of the first one.
-    inverse: DVec3,
-    /// How far the others are from the first one at most, for each metre of depth.
-    spread: f64,
-    slack: f64,
-    nearest: [Nearest; RAYS],
-}
-
-#[derive(Clone, Copy)]
-struct Nearest {
-    depth: f64,
-    face: u32,
-    /// `u32::MAX` for none.
-    instance: u32,
-    /// Not at the cutoff of a mask.
-    sure: bool,
-}
-
-impl<const RAYS: usize> Bundle for Sight<'_, RAYS> {
-    #[inline]
-    fn enters(&self, min: DVec3, max: DVec3) -> Option<f64> {
-        let (low, high) = (min - self.eye, max - self.eye);
-        // The farthest depth in the box: there the bundle is widest.
-        let deepest = (self.forward * low).max(self.forward * high).element_sum();
-        if deepest < self.near {
-            return None;
-        }
-        let grown = self.spread * deepest + self.slack;
-        enters(low - grown, high + grown, self.inverse, self.near, self.reach())
-    }
-
-    #[inline]
-    fn reach(&self) -> f64 {
-        self.nearest.iter().map(|met| met.depth).fold(0.0, f64::max)
-    }
-
-    fn meet(&mut self, index: u32) -> bool {
-        let face = &self.world.faces[index as usize];
-        if face.seen == Seen::Never {
-            return true;
-        }
-        let asked = face.from(self.eye);
-        for (direction, nearest) in self.directions.iter().zip(&mut self.nearest) {
-            let Some(met) = asked.meet(*direction) else { continue };
-            let front = met.counter_clockwise != face.mirrored;
-            if met.distance <= self.near || met.distance >= nearest.depth || !(front || face.seen == Seen::FromBothSides) {
-                continue;
-            }
-            let mask = face.mask.map_or(Mask::Surface, |mask| {
-                let beside = self.pixel.map(|step| asked.weights(*direction + step));
-                self.world.masks.at(mask, asked.weights(*direction), beside)
-            });
-            if mask != Mask::Hole {
-                *nearest = Nearest { depth: met.distance, face: index, instance: face.instance, sure: mask == Mask::Surface };
-            }
-        }
-        true
     }
 }
 
@@ -490,13 +388,4 @@ impl Bundle for Shadow<'_> {
         }
         self.counts_on || !self.counts.iter().all(|count| *count > 0)
     }
-}
-
-/// Where a ray from the origin enters a box, not before `from` and not after `to`.
-#[inline]
-fn enters(low: DVec3, high: DVec3, inverse: DVec3, from: f64, to: f64) -> Option<f64> {
-    let (a, b) = (low * inverse, high * inverse);
-    let entry = a.min(b).max_element().max(from);
-    let exit = a.max(b).min_element().min(to);
-    (entry <= exit).then_some(entry)
 }

@@ -45,6 +45,32 @@
 //!
 //! Spot lights are points with a range here, for `show shadow` does not know their cones.
 //!
+//! # Mirrors
+//!
+//! A ray that meets a mirror on its reflecting side goes on, as often as the settings let it; past that the
+//! mirror is a surface as any other. As the renderer does, and K section 3 before it, the eye is reflected and
+//! not the world:
+//!
+//! ```text
+//!        eye  .               _ surface  ----> light
+//!                ` .     _ -
+//!     ------======== m ========------    the mirror's plane
+//!               _ -
+//!          _ -
+//!     reflected eye
+//! ```
+//!
+//! From the reflected eye the ray is straight, its distances are still depths, and what it meets is met where
+//! it really is, so that the way to the light is asked there; through more mirrors the reflected eye is
+//! reflected again. Seen is only what lies over the plane, by more than what rounding may make of it: a hit no
+//! more than a hair over it is an edge, and triangles with no corner higher than the renderer cuts are out of
+//! sight, a frame's back for example. The places of a pixel must agree on every mirror of the way. Mirrors cast
+//! shadows as other surfaces do; light off mirrors is not followed.
+//!
+//! Besides the verdicts [`World::trace`] tells which instance each pixel shows through which mirrors, to hold a
+//! picture of exactly that against ([`Surfaces`]). Where surfaces of two instances lie closer together than
+//! steps of the depth buffer, that is an edge, and the verdict is not.
+//!
 //! # Fast enough
 //!
 //! Nine rays to the surface and fifteen to each light would be much for every pixel. But they run close
@@ -52,10 +78,14 @@
 //! their distance from it, and only at the triangles are they told apart.
 
 mod compare;
+mod eye;
 mod judge;
 mod mask;
+mod path;
 mod tree;
 mod world;
 
 pub use compare::{Comparison, Verdict, Verdicts, Wrong, WrongPixel, paint};
+pub use judge::Traced;
+pub use path::{Sighting, SurfaceComparison, Surfaces, WrongSurface};
 pub use world::World;

@@ -1,11 +1,16 @@
 //! A scene at one point in time, as triangles of world space in double precision.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 
 use super::mask::Masks;
 use super::tree::Tree;
 use crate::geometry::Aabb;
-use crate::scene::{AlphaMode, Mesh, Pose, Scene};
+use crate::geometry::planar::height;
+use crate::scene::{AlphaMode, Mesh, Mirror, Pose, Scene};
+use crate::settings::MAX_BOUNCES;
+
+/// The number of no face, no instance, no mirror.
+pub const NONE: u32 = u32::MAX;
 
 /// What rays are cast through: everything that is seen or casts.
 ///
@@ -19,6 +24,29 @@ pub struct World {
     pub(super) size: f64,
     /// The largest coordinate, metres.
     pub(super) largest: f64,
+    /// By their numbers.
+    pub(super) mirrors: Vec<Glass>,
+    /// How often a ray is reflected at most.
+    pub(super) bounces: u32,
+}
+
+/// A mirror in the world.
+#[derive(Debug)]
+pub struct Glass {
+    /// Unit normal to the reflecting side, and offset; none for what is no mirror in this pose.
+    plane: Option<DVec4>,
+    both_sides: bool,
+}
+
+/// A mirror as an eye has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Towards {
+    /// It reflects: its plane, with the eye on the side of the normal.
+    Front(DVec4),
+    /// It is a surface as any other.
+    Back,
+    /// The eye is on its plane.
+    Unsure,
 }
 
 /// One triangle.
@@ -28,6 +56,8 @@ pub struct Face {
     pub corners: [DVec3; 3],
     /// The scene's instance it belongs to.
     pub instance: u32,
+    /// The number of the mirror it is a part of, or [`NONE`].
+    pub mirror: u32,
     /// Whether it is drawn into the depth buffer, and how.
     pub seen: Seen,
     pub casts: Casts,
@@ -56,10 +86,25 @@ pub enum Casts {
     Always,
 }
 
+/// An eye is on a mirror's plane where single precision may have it on either side: of the largest coordinate.
+const ON_THE_PLANE: f64 = 2e-6;
+
+/// So low over a mirror's plane nothing is seen in it, of the radius of the ball about everything shown: what
+/// lies on the plane, a frame's back for example, must not fight with what is seen in the mirror. The renderer
+/// cuts there.
+const CLIP_SLACK: f64 = 1e-5;
+
 impl World {
-    /// The scene as posed.
+    /// The scene as posed, mirrors being surfaces as others.
     #[must_use]
     pub fn new(scene: &Scene, pose: &Pose) -> Self {
+        Self::with_mirrors(scene, pose, &[], 0)
+    }
+
+    /// The scene as posed, in which rays are reflected by `mirrors` up to `bounces` times,
+    /// [`MAX_BOUNCES`] at most.
+    #[must_use]
+    pub fn with_mirrors(scene: &Scene, pose: &Pose, mirrors: &[Mirror], bounces: u32) -> Self {
         let mut faces = Vec::new();
         let mut masks = Masks::new(scene);
         for (instance, (node_index, node, mesh)) in (0u32..).zip(scene.instances()) {
@@ -67,7 +112,9 @@ impl World {
             let positions = pose.positions(scene, node_index);
             let mirrored = world_from_object.matrix3.determinant() < 0.0;
             let casts = if node.casts_shadow { casting(mesh) } else { Vec::new() };
-            for primitive in &mesh.primitives {
+            for (number, primitive) in mesh.primitives.iter().enumerate() {
+                let mirror = mirrors.iter().position(|mirror| (mirror.node, mirror.primitive) == (node_index, number));
+                let mirror = mirror.and_then(|mirror| u32::try_from(mirror).ok()).unwrap_or(NONE);
                 let material = &scene.materials[primitive.material];
                 let seen = match (material.alpha, material.double_sided) {
                     (AlphaMode::Blend, _) => Seen::Never,
@@ -88,7 +135,7 @@ impl World {
                     } else {
                         None
                     };
-                    faces.push(Face { corners, instance, seen, casts, mirrored, mask });
+                    faces.push(Face { corners, instance, mirror, seen, casts, mirrored, mask });
                 }
             }
         }
@@ -96,7 +143,36 @@ impl World {
         let bounds = scene.bounds(pose);
         let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
         let largest = if largest.is_finite() { f64::from(largest) } else { 0.0 };
-        Self { tree: Tree::new(&boxes), faces, masks, size: 2.0 * f64::from(bounds.radius()), largest }
+        let glass = |mirror: &Mirror| Glass {
+            plane: mirror.posed(scene, pose).ok().map(|posed| posed.plane),
+            both_sides: mirror.double_sided,
+        };
+        Self {
+            tree: Tree::new(&boxes),
+            faces,
+            masks,
+            size: 2.0 * f64::from(bounds.radius()),
+            largest,
+            mirrors: mirrors.iter().map(glass).collect(),
+            bounces: bounces.min(MAX_BOUNCES),
+        }
+    }
+
+    /// A mirror, by its number, as seen from `eye`.
+    pub(super) fn towards(&self, mirror: u32, eye: DVec3) -> Towards {
+        let Some(&Glass { plane: Some(plane), both_sides }) = self.mirrors.get(mirror as usize) else { return Towards::Back };
+        let room = ON_THE_PLANE * self.largest.max(eye.abs().max_element());
+        match height(plane, eye) {
+            over if over.abs() <= room => Towards::Unsure,
+            over if over > 0.0 => Towards::Front(plane),
+            _ if both_sides => Towards::Front(-plane),
+            _ => Towards::Back,
+        }
+    }
+
+    /// Metres: what is no higher over a mirror's plane is not seen in it.
+    pub(super) fn clip_slack(&self) -> f64 {
+        CLIP_SLACK * self.size / 2.0
     }
 }
 
