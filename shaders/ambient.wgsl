@@ -1,6 +1,7 @@
 #include "shared/frame.wgsl"
 #include "shared/surface.wgsl"
 #include "shared/tone.wgsl"
+#include "shared/mirror.wgsl"
 
 // Worked out at the vertices, as in lit.wgsl.
 struct AmbientPoint {
@@ -10,6 +11,8 @@ struct AmbientPoint {
     @location(2) ambient_behind: vec3f, // and of the back
     @location(3) @interpolate(flat) emitted: vec3f,
     @location(4) @interpolate(flat) cutoff: f32,
+    @location(5) world: vec3f,
+    @location(6) normal: vec3f,
 }
 
 @vertex
@@ -23,16 +26,20 @@ fn ambient_vertex(vertex: SurfaceVertex, @builtin(instance_index) object: u32) -
     point.ambient_behind = ambient_light(base, -surface.normal.y) * exposure();
     point.emitted = emitted_light() * exposure();
     point.cutoff = material.cutoff;
+    point.world = surface.world;
+    point.normal = surface.normal;
     return point;
 }
 
 @fragment
 fn ambient(point: AmbientPoint, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    leave_out_behind_mirror(point.world);
     return ambient_color(point, base_color_texel(point.uv).rgb, front);
 }
 
 @fragment
 fn ambient_masked(point: AmbientPoint, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    leave_out_behind_mirror(point.world);
     let texel = base_color_texel(point.uv);
     if texel.a * point.ambient.a < point.cutoff {
         discard;
@@ -40,8 +47,18 @@ fn ambient_masked(point: AmbientPoint, @builtin(front_facing) front: bool) -> @l
     return ambient_color(point, texel.rgb, front);
 }
 
+// Added to what the mirror reflects.
+@fragment
+fn own(point: AmbientPoint, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    return vec4f(ambient_color(point, base_color_texel(point.uv).rgb, front).rgb, 0.0);
+}
+
 fn ambient_color(point: AmbientPoint, texel: vec3f, front: bool) -> vec4f {
-    let light = texel * select(point.ambient_behind, point.ambient.rgb, front || !BOTH_SIDES) + point.emitted;
+    var light = texel * select(point.ambient_behind, point.ambient.rgb, front || !BOTH_SIDES) + point.emitted;
+    if MIRROR != NO_MIRROR {
+        let share = reflectance(point.normal, frame.eye - point.world);
+        light = mix(light, draw.constant.rgb * (frame.scale * exposure()), share);
+    }
     if FINISHED {
         return shown(light);
     }

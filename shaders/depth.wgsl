@@ -17,6 +17,7 @@ fn depth() {
 
 @fragment
 fn depth_masked(point: SurfacePoint) {
+    leave_out_behind_mirror(point.world);
     if base_color(point).a < material.cutoff {
         discard;
     }

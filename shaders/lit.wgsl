@@ -2,6 +2,7 @@
 #include "shared/surface.wgsl"
 #include "shared/light.wgsl"
 #include "shared/tone.wgsl"
+#include "shared/mirror.wgsl"
 
 // What is the same all over a surface, or changes in proportion over a triangle, is worked out at the
 // vertices: a software GPU pays for every instruction of every pixel, and one number read from a uniform
@@ -60,6 +61,9 @@ fn lit(point: LitPoint, @builtin(front_facing) front: bool) -> @location(0) vec4
     var share = vec3f(arriving(LIGHT_KIND, reach, point.sin_bound, normal, point.to_light));
     if LIGHT_KIND == PROJECTOR {
         share *= through_slide(draw.light, point.to_light, length(point.to_eye));
+    }
+    if MIRROR != NO_MIRROR {
+        share *= 1.0 - reflectance(normal, point.to_eye);
     }
     let base = texel * point.tint;
     var light = base * point.finish.x;

@@ -33,6 +33,13 @@ fn tone_map(behind: Backdrop) -> @location(0) vec4f {
     return shown(scene.rgb * frame.exposure + behind.color * (1.0 - scene.a));
 }
 
+// The gradient as light, so that it comes out the same after exposure and tone curve: what lies behind all that a
+// mirror reflects. At infinity.
+@fragment
+fn backdrop(behind: Backdrop) -> @location(0) vec4f {
+    return vec4f(behind.color / frame.exposure, 1.0);
+}
+
 override BANDS: u32 = 1u;
 
 // Of two triangles: right and down, 0 or 1.
@@ -145,7 +152,8 @@ fn stencil_colors(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     }
     // Points of a light have a bit each: how many are set.
     let points = u32(draw.constant.g);
-    let count = select(stored & ~beyond, countOneBits(stored & points), points != 0u);
+    let mirrors = u32(draw.constant.b);
+    let count = select(stored & ~(beyond | mirrors), countOneBits(stored & points), points != 0u);
     if count > 0u {
         return vec4f(count_color(count), 1.0);
     }

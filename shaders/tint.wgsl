@@ -12,11 +12,13 @@ fn shaded(point: SurfacePoint, front: bool) -> vec4f {
 
 @fragment
 fn tint(point: SurfacePoint, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    leave_out_behind_mirror(point.world);
     return shaded(point, front);
 }
 
 @fragment
 fn tint_masked(point: SurfacePoint, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    leave_out_behind_mirror(point.world);
     if base_color(point).a < material.cutoff {
         discard;
     }

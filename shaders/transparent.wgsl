@@ -4,6 +4,7 @@
 
 @fragment
 fn transparent(point: SurfacePoint, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    leave_out_behind_mirror(point.world);
     let base = base_color(point);
     let normal = seen_normal(point, front);
     var color = ambient_light(base.rgb, normal.y) + emitted_light();

@@ -4,31 +4,36 @@
 //! its steps, in order, and the result is plain data ([`FramePlan`]); [`stage`] adds what comes
 //! before (pose, camera) and after (validation), for the window and the headless commands alike.
 
+mod reflections;
 mod rounds;
 mod shown;
+mod views;
 
 use std::cell::OnceCell;
 
 use glam::DVec2;
 use thiserror::Error;
 
+use crate::director::views::Outlook;
 use crate::failures;
 use crate::frame::plan::View;
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::validate::{Fault, validate};
-use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, Gather, Step, Target};
+use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, Gather, Reflections, Step, Target};
+use crate::geometry::Enclosure;
 use crate::geometry::ending::ending_plane;
-use crate::geometry::frustum::NearPyramid;
-use crate::geometry::{Aabb, Enclosure};
+use crate::geometry::sight::Sight;
 use crate::scene::area::sequence;
 use crate::scene::pose::pose;
 use crate::scene::{LightKind, Pose, Sampling, Scene};
 use crate::settings::{Accumulation, MAX_FRAMES, Settings, Show, Technique, Texturing};
 use crate::techniques::cases::{self, Class};
 use crate::techniques::counting::LightCount;
-use crate::techniques::culling::{Audience, Interest, Stalls, around, light_rect};
+use crate::techniques::culling::{Audience, Interest, around, common, light_rect};
 use crate::techniques::labels::Named;
+use crate::techniques::mirrors::{self, Mirrors};
 use crate::techniques::own_bits::{Round, Shining};
+use crate::techniques::surfaces::{Known, Place};
 use crate::techniques::{self, Caster, bounds, counting, depth_bounds, show, surfaces, wide};
 
 /// Why a frame cannot be planned: one line each.
@@ -139,7 +144,13 @@ pub fn plan(
     let mut frame = Frame::new(settings, scene, pose, camera, capabilities);
     frame.plan.gather = gather;
     let whole = frame.whole();
-    let groups = surfaces::opaque_groups(scene, pose, &frame.plan.views[0], frame.plan.size, frame.texturing());
+    if frame.plan.views.len() > 1 || matches!(settings.show, Show::Surfaces | Show::Views) {
+        if !frame.draw_reflections() {
+            frame.finish();
+        }
+        return frame.plan;
+    }
+    let groups = surfaces::opaque_groups(frame.known(), frame.view(), frame.plan.size, frame.texturing());
 
     match settings.show {
         Show::Stencil | Show::Shadow => {
@@ -177,7 +188,7 @@ pub fn plan(
             let classes = frame.classes(settings.light);
             frame.clear_all(cases::BACKGROUND, 0);
             frame.extend(cases::steps(scene, &groups, &classes, Class::color, whole));
-            frame.extend(cases::glass(scene, pose, &frame.plan.views[0], whole));
+            frame.extend(cases::glass(frame.known(), frame.view(), whole));
             frame.push(show::copy(whole));
             frame.label(Target::Output);
         }
@@ -185,7 +196,7 @@ pub fn plan(
             frame.plan_casters(settings.light);
             let (classes, scissor) = (frame.classes(settings.light), frame.light_rect(settings.light));
             let (eye, above) = frame.rise();
-            let groups = surfaces::opaque_groups(scene, pose, &frame.plan.views[0], frame.plan.size, Texturing::EachLight);
+            let groups = surfaces::opaque_groups(frame.known(), frame.view(), frame.plan.size, Texturing::EachLight);
             frame.clear_all(cases::BACKGROUND, 0);
             frame.extend(cases::steps(scene, &groups, &classes, bounds::color_of, whole));
             if above.cut.is_some() {
@@ -201,7 +212,7 @@ pub fn plan(
         Show::Final | Show::Volumes | Show::Wireframe => {
             let darkens = techniques::row(settings.technique).darkens;
             let mut rounds = frame.rounds();
-            let transparent = surfaces::transparent(scene, pose, &frame.plan.views[0], whole);
+            let transparent = surfaces::transparent(frame.known(), frame.view(), whole);
             let one_light = rounds.iter().map(|round| round.lights.len()).sum::<usize>() <= 1;
             if one_light && darkens.is_none() && transparent.is_empty() && frame.may_draw_directly() {
                 frame.draw_directly(rounds.pop(), &groups);
@@ -231,20 +242,9 @@ pub fn plan(
                 }
             }
             frame.extend(transparent);
-            match settings.show {
-                Show::Volumes => {
-                    frame.plan_glass(settings.light);
-                    frame.extend(show::volumes(&frame.plan.volumes, settings.light, whole));
-                }
-                Show::Wireframe => frame.push(show::wireframe(scene.instances().count(), whole)),
-                _ => {}
-            }
-            if let Some(gather) = gather {
-                frame.push(show::gather(gather, whole));
-            }
-            frame.push(show::tone_map(whole));
-            frame.label(Target::Output);
+            frame.finish();
         }
+        Show::Surfaces | Show::Views => {}
     }
     frame.plan
 }
@@ -258,22 +258,20 @@ struct Frame<'a> {
     scene: &'a Scene,
     pose: &'a Pose,
     capabilities: &'a Capabilities,
-    near_pyramid: NearPyramid,
-    /// Of each instance, whether it reaches into that pyramid, once asked.
-    across: Vec<OnceCell<bool>>,
+    /// The view whose steps are planned.
+    outlook: Outlook,
+    /// What each view sees, where there are mirrors.
+    sights: Vec<Sight>,
+    mirrors: Mirrors,
     /// What the stencil was cleared to last, and which bits are no longer so.
     stored: u8,
     used: u8,
-    /// Where everything is.
-    stalls: Stalls,
-    /// Every surface, and the eye: volumes need not reach farther.
-    receivers: Aabb,
     plan: FramePlan,
 }
 
 impl<'a> Frame<'a> {
     fn new(settings: &'a Settings, scene: &'a Scene, pose: &'a Pose, camera: Camera, capabilities: &'a Capabilities) -> Self {
-        let exact_values = matches!(settings.show, Show::Shadow | Show::Stencil | Show::Overflow);
+        let exact_values = matches!(settings.show, Show::Shadow | Show::Stencil | Show::Overflow | Show::Surfaces | Show::Views);
         let each_sample = settings.technique != Technique::Wide || capabilities.wide_four_samples;
         let samples = if exact_values || !capabilities.four_samples || !each_sample { 1 } else { settings.samples };
         let mut notes: Vec<_> =
@@ -300,14 +298,13 @@ impl<'a> Frame<'a> {
             gather: None,
             points: pose.lights.iter().map(|light| light.of).collect(),
             notes,
+            reflections: Reflections::default(),
             breaks: None,
         };
-        let near_pyramid = NearPyramid::of(camera.eye, camera.near_rectangle());
-        let receivers = scene.bounds(pose).union(&Aabb::around(camera.eye, camera.eye));
-        let stalls = Stalls::new(scene, pose, &plan.views[0]);
-        let across = vec![OnceCell::new(); scene.instances().count()];
-        let mut frame =
-            Self { settings, scene, pose, capabilities, near_pyramid, across, stored: 0, used: 0, stalls, receivers, plan };
+        let outlook = Outlook::new(scene, pose, (0, &plan.views[0]), None);
+        let (sights, mirrors) = (Vec::new(), Mirrors::default());
+        let mut frame = Self { settings, scene, pose, capabilities, outlook, sights, mirrors, stored: 0, used: 0, plan };
+        frame.plan_views();
         frame.choose_bits();
         frame
     }
@@ -315,6 +312,10 @@ impl<'a> Frame<'a> {
     /// One bit less to count in where lights' bounds are marked.
     fn choose_bits(&mut self) {
         if !self.settings.culling.depth_bounds || techniques::row(self.settings.technique).darkens.is_some() {
+            return;
+        }
+        if self.plan.budget.mirror_mask != 0 {
+            self.plan.notes.push("no depth bounds here: mirrors have taken bits of the stencil".into());
             return;
         }
         let lights = &self.pose.lights;
@@ -336,11 +337,12 @@ impl<'a> Frame<'a> {
             Show::Stencil => Interest::InRange,
             show => show.into(),
         };
-        depth_bounds::enclosure(&self.pose.lights[light], bounds, interest, &self.plan.views[0].camera)
+        depth_bounds::enclosure(&self.pose.lights[light], bounds, interest, &self.view().camera)
     }
 
+    /// The view's pixels.
     fn whole(&self) -> [u32; 4] {
-        [0, 0, self.plan.size[0], self.plan.size[1]]
+        self.view().rect
     }
 
     /// Whether the settings leave nothing to accumulate but light.
@@ -366,7 +368,9 @@ impl<'a> Frame<'a> {
         self.clear_all([0.0, 0.0, 0.0, 1.0], round.base);
         let shining = round.lights.first();
         let budget = shining.and_then(|shining| shining.budget);
-        self.extend(surfaces::depth(groups, budget.is_some(), whole));
+        for step in surfaces::depth(groups, budget.is_some(), whole) {
+            self.push(Step { action: step.action.onto(Target::Direct), ..step });
+        }
         // Where no volume is drawn the count stays what it was.
         let counted = round.steps.iter().filter_map(Step::scissor).reduce(around);
         let scissor = counted.filter(|_| round.base == 0).unwrap_or(whole);
@@ -384,11 +388,35 @@ impl<'a> Frame<'a> {
         self.push(show::background(whole));
     }
 
+    /// What surfaces are grouped by.
+    fn known(&self) -> Known<'_> {
+        Known { scene: self.scene, pose: self.pose, mirrors: &self.mirrors, places: &self.outlook.places }
+    }
+
+    /// The steps from the sum of all light to the picture.
+    fn finish(&mut self) {
+        let whole = self.whole();
+        match self.settings.show {
+            Show::Volumes => {
+                self.plan_glass(self.settings.light);
+                self.extend(show::volumes(&self.plan.volumes, self.settings.light, whole));
+            }
+            Show::Wireframe => self.push(show::wireframe(self.scene.instances().count(), whole)),
+            _ => {}
+        }
+        if let Some(gather) = self.plan.gather {
+            self.push(show::gather(gather, whole));
+        }
+        self.push(show::tone_map(whole));
+        self.label(Target::Output);
+    }
+
     /// The pixels a light can reach; `None` where its bounds are off screen.
     fn light_rect(&self, light: usize) -> Option<[u32; 4]> {
-        let clip_from_world = self.plan.views[0].camera.clip_from_world();
+        let clip_from_world = self.view().camera.clip_from_world();
         let bounds = self.settings.culling.light_bounds;
-        light_rect(&self.pose.lights[light], bounds, self.settings.show.into(), &clip_from_world, self.plan.size)
+        let rect = light_rect(&self.pose.lights[light], bounds, self.settings.show.into(), &clip_from_world, self.plan.size)?;
+        common(rect, self.view().rect)
     }
 
     /// Which instances lie, at least in part, within a light's range.
@@ -447,11 +475,12 @@ impl<'a> Frame<'a> {
         if !posed.shadows {
             return None;
         }
-        let view = &self.plan.views[0];
+        let Outlook { stalls, receivers, near_pyramid, across, places, .. } = &self.outlook;
+        let view = self.view();
         let culling = self.settings.culling;
         let interest = self.settings.show.into();
-        let audience = Audience::new(posed, &self.stalls, view, interest, culling.on, scissor, self.plan.size);
-        let within = audience.receivers_within(&self.receivers, view.camera.eye);
+        let audience = Audience::new(posed, stalls, view, interest, culling.on, scissor, self.plan.size);
+        let within = audience.receivers_within(receivers, view.camera.eye);
         let casters: Vec<_> = self
             .scene
             .instances()
@@ -468,16 +497,17 @@ impl<'a> Frame<'a> {
                     _ if view.camera.far.is_some() => None,
                     _ => ending_plane(posed.position, corners, within),
                 };
-                let end = ends_on(&within).or_else(|| ends_on(&self.receivers));
+                let end = ends_on(&within).or_else(|| ends_on(receivers));
                 let in_range = bounds.transformed(&world_from_object).distance_to(posed.position) <= posed.range;
                 Caster {
                     capabilities: self.capabilities,
                     scene: self.scene,
                     pose: self.pose,
                     view,
-                    view_number: 0,
-                    near_pyramid: &self.near_pyramid,
-                    across: &self.across[instance],
+                    view_number: self.outlook.view,
+                    before_mirror: places[instance] == Place::Before,
+                    near_pyramid,
+                    across: &across[instance],
                     instance,
                     node_index,
                     node,
@@ -485,7 +515,7 @@ impl<'a> Frame<'a> {
                     light: posed,
                     sight: audience.sight(instance, &corners, in_range, end),
                     end,
-                    receivers: &self.receivers,
+                    receivers,
                     eye_count: OnceCell::new(),
                     cutout: OnceCell::new(),
                 }
@@ -508,15 +538,19 @@ impl<'a> Frame<'a> {
             solid,
             overflow: counting.overflow,
             values: self.settings.show == Show::Stencil,
+            undisturbed: self.plan.budget.mirror_mask != 0 && self.settings.show == Show::Shadow,
         }
     }
 
-    fn push(&mut self, step: Step) {
+    fn push(&mut self, mut step: Step) {
+        mirrors::keep_in_view(&mut step, self.outlook.view, &self.plan.views, self.plan.budget);
         self.plan.steps.push(step);
     }
 
     fn extend(&mut self, steps: Vec<Step>) {
-        self.plan.steps.extend(steps);
+        for step in steps {
+            self.push(step);
+        }
     }
 
     fn clear(&mut self, label: String, why: &str, clear: Clear) {

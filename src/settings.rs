@@ -272,6 +272,10 @@ pub enum Show {
     Bounds,
     /// The picture with every triangle's edges.
     Wireframe,
+    /// Every surface in the colour of the mirrors on the way to it.
+    Views,
+    /// Every surface in a colour that no other has, exact.
+    Surfaces,
 }
 
 named! {
@@ -310,8 +314,18 @@ named! {
 
 impl Show {
     /// Everything that can be shown, in the order people see them.
-    pub const ALL: [Self; 8] =
-        [Self::Final, Self::Stencil, Self::Shadow, Self::Overflow, Self::Volumes, Self::Cases, Self::Bounds, Self::Wireframe];
+    pub const ALL: [Self; 10] = [
+        Self::Final,
+        Self::Stencil,
+        Self::Shadow,
+        Self::Overflow,
+        Self::Volumes,
+        Self::Cases,
+        Self::Bounds,
+        Self::Wireframe,
+        Self::Views,
+        Self::Surfaces,
+    ];
 
     /// The name on the command line and in files.
     #[must_use]
@@ -325,6 +339,8 @@ impl Show {
             Self::Cases => "cases",
             Self::Bounds => "bounds",
             Self::Wireframe => "wireframe",
+            Self::Views => "views",
+            Self::Surfaces => "surfaces",
         }
     }
 
@@ -346,6 +362,10 @@ impl Show {
                 "from above: the eye's frustum, the lights' ranges, one light's scissor as a slice of the frustum, casters by case"
             }
             Self::Wireframe => "every triangle's edges drawn over the picture",
+            Self::Views => "every surface in the colour of the mirrors on the way to it; grey past the last bounce",
+            Self::Surfaces => {
+                "every surface in a colour of its own, another in each mirror: exact values, black where nothing is"
+            }
         }
     }
 
@@ -354,7 +374,7 @@ impl Show {
     pub const fn looks_at_light(self) -> bool {
         match self {
             Self::Stencil | Self::Shadow | Self::Overflow | Self::Volumes | Self::Cases | Self::Bounds => true,
-            Self::Final | Self::Wireframe => false,
+            Self::Final | Self::Wireframe | Self::Views | Self::Surfaces => false,
         }
     }
 }

@@ -6,6 +6,8 @@
 override TEXTURED: bool = true;
 override GLOSSY: bool = true;
 override BOTH_SIDES: bool = true;
+// Reaches under the plane of the mirror it is seen in: what lies there is no reflection.
+override CLIPPED: bool = false;
 
 struct Material {
     base_color: vec4f,          // linear, with alpha
@@ -52,6 +54,14 @@ fn surface_point(vertex: SurfaceVertex, object: u32) -> SurfacePoint {
     point.color = material.base_color * vertex.color;
     point.sin_bound = select(0.0, vertex.sin_bound, frame.smooth_terminator > 0.5);
     return point;
+}
+
+// Left out in the fragment, not by clipping the triangle: a triangle that was cut has other depths in its last
+// bits, and its light cap, which is never cut, would lie before it.
+fn leave_out_behind_mirror(world: vec3f) {
+    if CLIPPED && dot(frame.clip_plane, vec4f(world, 1.0)) < 0.0 {
+        discard;
+    }
 }
 
 // White where there is no texture.

@@ -5,7 +5,6 @@
 //! to mark the pixels it was added to.
 
 use super::Frame;
-use crate::frame::Clear;
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::settings::AreaMode;
 use crate::techniques::counting::LightCount;
@@ -44,7 +43,8 @@ impl Frame<'_> {
     /// have not.
     fn points_with_bits(&self, light: usize) -> Vec<usize> {
         let posed = &self.pose.lights[light];
-        if self.settings.lighting.area_mode != AreaMode::Bits || !posed.shadows || posed.extent.is_point() {
+        let bits = self.settings.lighting.area_mode == AreaMode::Bits && self.plan.budget.mirror_mask == 0;
+        if !bits || !posed.shadows || posed.extent.is_point() {
             return Vec::new();
         }
         let points = (0..self.pose.lights.len()).filter(|&point| self.pose.lights[point].of == posed.of);
@@ -117,7 +117,8 @@ impl Frame<'_> {
     /// For what is added without having been counted: once to each pixel, marked in a bit that nobody used since the stencil
     /// was cleared.
     pub(super) fn unused_bit(&mut self, light: Option<usize>) -> StencilState {
-        let free = |frame: &Self| !(frame.used | frame.stored | frame.plan.budget.beyond_mask);
+        let taken = self.plan.budget.beyond_mask | self.plan.budget.mirror_mask;
+        let free = |frame: &Self| !(frame.used | frame.stored | taken);
         if free(self) == 0 {
             self.reset_stencil(light, 0);
         }
@@ -131,7 +132,6 @@ impl Frame<'_> {
         (self.stored, self.used) = (value, 0);
         let why = "Each light counts anew, from how many of its volumes hold the eye.";
         let whose = light.map_or_else(String::new, |light| format!("light {light}: "));
-        let clear = Clear { color: None, depth: None, stencil: Some(value), counts: None };
-        self.clear(format!("{whose}reset the count"), why, clear);
+        self.reset_view(&format!("{whose}reset the count"), why, value);
     }
 }

@@ -14,7 +14,17 @@ pub mod validate;
 
 pub use camera::{Camera, CameraError};
 pub use capabilities::{Capabilities, Lack, WideCounts};
-pub use plan::{Case, Cutout, CutoutShape, FramePlan, Gather, Method, Reason, View, VolumePlan, Window};
+pub use plan::{Case, Cutout, CutoutShape, FramePlan, Gather, Method, Reason, Reflections, View, VolumePlan, Window};
+/// What `show surfaces` draws a surface in, display values: of the pixels of view `v` that show instance `i` of `n`,
+/// the number is v n + i + 1; 0 is no surface. No two numbers below 2^24 have one colour.
+#[must_use]
+pub const fn identity_color(number: u32) -> [u8; 3] {
+    // As `shaders/identity.wgsl` has it: times an odd number, modulo 2^24.
+    let [low, middle, high, _] = number.wrapping_mul(0x9e37_79b1).to_le_bytes();
+    [low, middle, high]
+}
+
 pub use step::{
-    Action, Clear, Draw, DrawSet, Label, LabelKind, LightShape, Look, Part, Program, Step, Stroke, Surface, Target, VolumePart,
+    Action, Clear, Draw, DrawSet, Label, LabelKind, LightShape, Look, MirrorLook, Part, Program, Step, Stroke, Surface, Target,
+    VolumePart,
 };

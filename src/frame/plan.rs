@@ -39,6 +39,8 @@ pub struct FramePlan {
     /// For every light of the pose, the light of the scene that it is, or is a point of
     /// ([`crate::scene::area`]).
     pub points: Vec<usize>,
+    /// What there is to reflect.
+    pub reflections: Reflections,
     /// What a user should know about this frame: replacements, limits.
     pub notes: Vec<String>,
     /// The one rule of [`super::validate`] that this frame breaks, where it is spoiled on purpose
@@ -62,6 +64,19 @@ impl Gather {
     pub fn next(self) -> Option<u32> {
         (self.frame + 1 < self.frames).then_some(self.frame + 1)
     }
+}
+
+/// Mirrors, and the views that were planned for them.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Reflections {
+    /// Mirrors in force, seen or not.
+    pub mirrors: usize,
+    /// How often a ray is reflected at most.
+    pub bounces: u32,
+    /// How many views there would be if every mirror showed in every other (K section 3), the eye's own among them.
+    pub worst_case: u64,
+    /// Views that were left out for being too small.
+    pub too_small: usize,
 }
 
 /// One eye: the camera's own, or that eye reflected in the mirrors of a path.

@@ -125,6 +125,23 @@ pub struct Look {
     pub light: LightShape,
     /// The colour is the picture's: ambient light is in it, exposure and tone curve are done.
     pub finished: bool,
+    /// Fragments under the view's clip plane are left out.
+    pub clipped: bool,
+    /// How the surface reflects.
+    pub mirror: MirrorLook,
+}
+
+/// How a surface reflects, without its numbers.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MirrorLook {
+    /// It does not.
+    #[default]
+    None,
+    /// The same from everywhere.
+    Even,
+    /// The more, the more obliquely it is seen.
+    Fresnel,
 }
 
 /// The shape of a light, without its numbers.
@@ -237,6 +254,14 @@ pub enum Program {
     Bounds,
     /// Lines and areas over the picture.
     Lines,
+    /// A mirror's own look in ambient and emitted light, to be added to its reflection.
+    Own,
+    /// How much of the reflection behind it a mirror shows, to be multiplied with it.
+    Reflected,
+    /// Full screen, at infinity: the gradient behind everything, as light.
+    Backdrop,
+    /// Surfaces in the colour of their number ([`crate::frame::identity_color`]).
+    Identity,
 }
 
 /// What a step draws, by number.

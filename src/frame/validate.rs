@@ -1,6 +1,8 @@
 //! Checks a plan without a GPU. A fault here is a bug in the director or a technique, caught where
 //! it can be read instead of where it can only be seen.
 
+mod mirrors;
+
 use std::collections::BTreeMap;
 
 use serde::Serialize;
@@ -43,6 +45,9 @@ pub fn validate(plan: &FramePlan) -> Result<(), Fault> {
         if step.view >= plan.views.len() {
             return Err(fault("it draws a view that is not planned"));
         }
+        if step.view != state.view {
+            state.turn_to(step.view);
+        }
         match &step.action {
             Action::Clear(clear) => {
                 if state.output_begun || state.gathered {
@@ -57,14 +62,19 @@ pub fn validate(plan: &FramePlan) -> Result<(), Fault> {
                     state.shone = 0;
                     state.counting = false;
                     state.counted = None;
+                    state.field_known = true;
                 }
                 if clear.counts.is_some() {
                     state.counts_set = true;
                     state.wide = None;
                 }
             }
-            Action::Draw(draw) => check_draw(plan, draw, &mut state).map_err(fault)?,
+            Action::Draw(draw) => mirrors::check(plan, step.view, draw, &mut state).map_err(fault)?,
         }
+    }
+    if !state.open.is_empty() {
+        let label = plan.steps.last().map(|step| step.label.clone()).unwrap_or_default();
+        return Err(Fault { step: plan.steps.len().saturating_sub(1), label, what: "a mirror's pixels stay tagged" });
     }
     match plan.steps.last() {
         Some(_) if state.output_begun || state.direct => Ok(()),
@@ -78,6 +88,12 @@ pub fn validate(plan: &FramePlan) -> Result<(), Fault> {
 
 #[derive(Default)]
 struct Progress {
+    /// Whose steps these are.
+    view: usize,
+    /// The views whose mirrors' pixels are tagged, each seen in the one before.
+    open: Vec<usize>,
+    /// What the bits hold that count is this view's.
+    field_known: bool,
     color_set: bool,
     depth_set: bool,
     stencil_set: bool,
@@ -97,6 +113,23 @@ struct Progress {
     counts_set: bool,
     /// Whose volumes are counted beyond the stencil, since the counts were cleared.
     wide: Option<usize>,
+}
+
+impl Progress {
+    /// The steps of another view begin: it knows nothing of what the last one counted.
+    fn turn_to(&mut self, view: usize) {
+        *self = Self {
+            view,
+            counting: false,
+            owned: BTreeMap::new(),
+            shone: 0,
+            bounded: None,
+            counted: None,
+            wide: None,
+            field_known: false,
+            ..std::mem::take(self)
+        };
+    }
 }
 
 fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(), &'static str> {
@@ -143,6 +176,10 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
     }
     if stencil.writes() && stencil.write_mask & !plan.budget.reserved() != 0 {
         return Err("it writes stencil bits outside its budget");
+    }
+    let counts = stencil.read_mask & plan.budget.reserved() != 0 && stencil.tests() || stencil.writes();
+    if counts && !state.field_known {
+        return Err("it asks for bits, or counts in them, that another view left");
     }
     if (stencil.tests() || stencil.writes()) && draw.stencil_reference & !(stencil.read_mask | stencil.write_mask) != 0 {
         return Err("its stencil reference does not fit its masks");

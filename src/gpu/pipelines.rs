@@ -7,7 +7,7 @@ use super::shaders::{BANDS, Library, Override, Vertices, entry_of};
 use super::types::{Attributes, Draw, Frame, LabelVertex, Light, LineVertex, Material, Object, Volume};
 use crate::frame::state::{Blend, Compare, Cull, DepthBias, NearPlane, State, Winding};
 use crate::frame::stencil::{StencilFace, StencilOp};
-use crate::frame::{LightShape, Look, Program, Target};
+use crate::frame::{LightShape, Look, MirrorLook, Program, Target};
 use crate::settings::Accumulation;
 
 /// Everything a pipeline depends on.
@@ -321,6 +321,15 @@ fn constants(overrides: &[Override], Key { look, state, .. }: &Key) -> Vec<(&'st
         }
         Override::Bands => ("BANDS", f64::from(BANDS)),
         Override::Finished => ("FINISHED", f64::from(u8::from(look.finished))),
+        Override::Clipped => ("CLIPPED", f64::from(u8::from(look.clipped))),
+        Override::Mirror => {
+            let mirror = match look.mirror {
+                MirrorLook::None => 0.0,
+                MirrorLook::Even => 1.0,
+                MirrorLook::Fresnel => 2.0,
+            };
+            ("MIRROR", mirror)
+        }
     };
     overrides.iter().map(|&it| value(it)).collect()
 }

@@ -17,6 +17,7 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("shared/light.wgsl", include_str!("../../shaders/shared/light.wgsl")),
     ("shared/full_screen.wgsl", include_str!("../../shaders/shared/full_screen.wgsl")),
     ("shared/tone.wgsl", include_str!("../../shaders/shared/tone.wgsl")),
+    ("shared/mirror.wgsl", include_str!("../../shaders/shared/mirror.wgsl")),
     ("shared/volume.wgsl", include_str!("../../shaders/shared/volume.wgsl")),
     ("depth.wgsl", include_str!("../../shaders/depth.wgsl")),
     ("ambient.wgsl", include_str!("../../shaders/ambient.wgsl")),
@@ -33,6 +34,8 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("tint.wgsl", include_str!("../../shaders/tint.wgsl")),
     ("dark.wgsl", include_str!("../../shaders/dark.wgsl")),
     ("bounds.wgsl", include_str!("../../shaders/bounds.wgsl")),
+    ("reflect.wgsl", include_str!("../../shaders/reflect.wgsl")),
+    ("identity.wgsl", include_str!("../../shaders/identity.wgsl")),
     ("output.wgsl", include_str!("../../shaders/output.wgsl")),
 ];
 
@@ -92,6 +95,10 @@ pub enum Override {
     Bands,
     /// `FINISHED`: the colour is the picture's own.
     Finished,
+    /// `CLIPPED`: fragments under the clip plane are left out.
+    Clipped,
+    /// `MIRROR`: how the surface reflects.
+    Mirror,
 }
 
 const fn entry(
@@ -106,11 +113,22 @@ const fn entry(
 }
 
 /// What `shared/surface.wgsl` declares.
-const SURFACE: &[Override] = &[Override::Textured, Override::Glossy, Override::BothSides];
+const SURFACE: &[Override] = &[Override::Textured, Override::Glossy, Override::BothSides, Override::Clipped];
 /// And `ambient.wgsl` beside it.
-const AMBIENT: &[Override] = &[Override::Textured, Override::Glossy, Override::BothSides, Override::Finished];
+const AMBIENT: &[Override] =
+    &[Override::Textured, Override::Glossy, Override::BothSides, Override::Clipped, Override::Finished, Override::Mirror];
+/// And `reflect.wgsl`.
+const REFLECTED: &[Override] = &[Override::Textured, Override::Glossy, Override::BothSides, Override::Clipped, Override::Mirror];
 /// And `lit.wgsl`.
-const LIT: &[Override] = &[Override::Textured, Override::Glossy, Override::BothSides, Override::LightKind, Override::Finished];
+const LIT: &[Override] = &[
+    Override::Textured,
+    Override::Glossy,
+    Override::BothSides,
+    Override::Clipped,
+    Override::LightKind,
+    Override::Finished,
+    Override::Mirror,
+];
 
 /// Every program, in the order of the enum.
 pub const PROGRAMS: &[Entry] = &[
@@ -146,6 +164,10 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::TintMasked, "tint.wgsl", "surface_vertex", "tint_masked", Vertices::Surface, SURFACE),
     entry(Program::Bounds, "bounds.wgsl", "bounds_vertex", "bounds", Vertices::Volume, &[]),
     entry(Program::Lines, "lines.wgsl", "line_vertex", "line", Vertices::Lines, &[]),
+    entry(Program::Own, "ambient.wgsl", "ambient_vertex", "own", Vertices::Surface, AMBIENT),
+    entry(Program::Reflected, "reflect.wgsl", "surface_vertex", "reflected", Vertices::Surface, REFLECTED),
+    entry(Program::Backdrop, "output.wgsl", "backdrop_vertex", "backdrop", Vertices::None, &[]),
+    entry(Program::Identity, "identity.wgsl", "identity_vertex", "identity", Vertices::Surface, SURFACE),
 ];
 
 /// The entry of a program.

@@ -10,10 +10,10 @@
 
 use serde::Serialize;
 
-use super::surfaces::{self, SurfaceGroup, Tint};
+use super::surfaces::{self, Known, SurfaceGroup, Tint};
 use crate::frame::plan::{Case, View, VolumePlan};
 use crate::frame::{Action, Look, Method, Program, Step, Surface};
-use crate::scene::{Pose, Scene};
+use crate::scene::Scene;
 
 /// What an instance is to one light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -132,8 +132,8 @@ pub fn steps(
 
 /// Blended surfaces as thin grey glass: they cast no shadows.
 #[must_use]
-pub fn glass(scene: &Scene, pose: &Pose, view: &View, scissor: [u32; 4]) -> Vec<Step> {
-    let mut steps = surfaces::transparent(scene, pose, view, scissor);
+pub fn glass(known: Known<'_>, view: &View, scissor: [u32; 4]) -> Vec<Step> {
+    let mut steps = surfaces::transparent(known, view, scissor);
     for step in &mut steps {
         step.why = "Blended surfaces as thin glass: they cast no shadows.".into();
         if let Action::Draw(draw) = &mut step.action {

@@ -31,6 +31,8 @@ pub struct Caster<'a> {
     pub scene: &'a Scene,
     /// And where everything is now.
     pub pose: &'a Pose,
+    /// All of it lies before the mirror that the view looks through.
+    pub before_mirror: bool,
     /// The view it is counted for.
     pub view: &'a View,
     /// Its number among the plan's.
@@ -80,10 +82,13 @@ impl Caster<'_> {
     }
 
     /// Whether every light-facing triangle of the caster is in the depth buffer, or something nearer
-    /// is: its materials are opaque and either drawn from both sides, or the mesh is solid, so that
+    /// is: it lies before the mirror that is looked through, its materials are opaque and either drawn from both sides, or the mesh is solid, so that
     /// a triangle seen from behind always has one seen from the front before it.
     #[must_use]
     pub fn surface_covers(&self) -> bool {
+        if !self.before_mirror {
+            return false;
+        }
         let solid = self.mesh.topology.report().is_solid();
         self.mesh.primitives.iter().filter(|primitive| primitive.casts_shadow).all(|primitive| {
             let material = &self.scene.materials[primitive.material];
@@ -165,6 +170,8 @@ pub struct Ask<'a> {
     pub overflow: Overflow,
     /// The count itself is shown, not only whether it is zero.
     pub values: bool,
+    /// What other views have counted in the same pixels' bits must stay: no batches.
+    pub undisturbed: bool,
 }
 
 /// The volumes of one light, decided.

@@ -44,12 +44,14 @@ pub struct Stalls {
     seen: Vec<bool>,
     /// Instances, the largest first: they are the likeliest to receive a shadow.
     by_size: Vec<usize>,
+    /// All that is seen, for views by way of a mirror: what lies in its window, for ever.
+    window: Option<Body>,
 }
 
 impl Stalls {
-    /// The boxes of `scene` as posed, and which of them `view` may see.
+    /// The boxes of `scene` as posed, and which of them `view` may see, by way of a mirror through its `window`.
     #[must_use]
-    pub fn new(scene: &Scene, pose: &Pose, view: &View) -> Self {
+    pub fn new(scene: &Scene, pose: &Pose, view: &View, window: Option<Body>) -> Self {
         let frustum = Body::frustum(view.camera.eye, view.camera.near_rectangle());
         let mut sizes = Vec::new();
         let mut boxes = Vec::new();
@@ -58,13 +60,19 @@ impl Stalls {
             let bounds = pose.bounds(scene, node);
             let body = Body::boxed(&bounds, &pose.world_from_object[node]);
             let receives = mesh.primitives.iter().any(|part| scene.materials[part.material].alpha != AlphaMode::Blend);
-            seen.push(receives && frustum.may_meet(&body));
+            let in_window = window.as_ref().is_none_or(|window| window.may_meet(&body));
+            seen.push(receives && frustum.may_meet(&body) && in_window);
             sizes.push(bounds.transformed(&pose.world_from_object[node]).radius());
             boxes.push(body);
         }
         let mut by_size: Vec<_> = (0..boxes.len()).collect();
         by_size.sort_by(|a, b| sizes[*b].total_cmp(&sizes[*a]));
-        Self { boxes, seen, by_size }
+        Self { boxes, seen, by_size, window }
+    }
+
+    /// Whether a body may be in the window of a view by way of a mirror.
+    pub(crate) fn in_window(&self, body: &Body) -> bool {
+        self.window.as_ref().is_none_or(|window| window.may_meet(body))
     }
 }
 
@@ -125,8 +133,9 @@ pub fn light_rect(
     Some(rect)
 }
 
-/// The pixels of both rectangles.
-fn common([ax, ay, aw, ah]: [u32; 4], [bx, by, bw, bh]: [u32; 4]) -> Option<[u32; 4]> {
+/// The pixels of both rectangles; `None` where there are none.
+#[must_use]
+pub fn common([ax, ay, aw, ah]: [u32; 4], [bx, by, bw, bh]: [u32; 4]) -> Option<[u32; 4]> {
     let (x, y) = (ax.max(bx), ay.max(by));
     let (right, bottom) = ((ax + aw).min(bx + bw), (ay + ah).min(by + bh));
     (right > x && bottom > y).then(|| [x, y, right - x, bottom - y])
@@ -244,7 +253,7 @@ impl<'a> Audience<'a> {
         }
         let body = &self.stalls.boxes[instance];
         let near_clear = !self.occlusion.may_meet(body);
-        let in_view = self.view.may_meet(body);
+        let in_view = self.view.may_meet(body) && self.stalls.in_window(body);
         let case = match (near_clear, in_view) {
             (true, _) => Case::One,
             (false, false) => Case::Two,
@@ -258,7 +267,7 @@ impl<'a> Audience<'a> {
         }
         let light = DVec4::from(self.light);
         let volume = Body::volume(corners, light, self.sooner(corners, end));
-        if !(in_view || self.view.may_meet(&volume)) {
+        if !(in_view || self.view.may_meet(&volume) && self.stalls.in_window(&volume)) {
             return dropped(Reason::OutOfView);
         }
         let receives = |receiver: &usize| *receiver == instance || self.stalls.boxes[*receiver].may_meet(&volume);

@@ -20,6 +20,7 @@ pub mod depth_bounds;
 mod exact_z_pass;
 mod flattened;
 pub mod labels;
+pub mod mirrors;
 mod none;
 mod one_sided;
 mod overflow;

@@ -103,13 +103,19 @@ pub(super) fn decide(row: &Row, casters: &[&Caster<'_>], ask: &Ask) -> Decision 
     let batch = if ask.budget.count_mask == 0 { 0 } else { ask.budget.batched().largest() };
     let alone = bounds.iter().max().copied().unwrap_or(0);
     let by_wide = ask.samples == 1 || ask.capabilities.wide_four_samples;
-    if alone <= batch && !(ask.values && by_wide) {
+    if alone <= batch && !((ask.values || ask.undisturbed) && by_wide) {
         let (batch_of, batches) = in_batches(&cones, &bounds, batch.into());
         let note = format!("{too_many}: counted in {batches} batches of at most {batch}, each collapsed into one bit");
         return Decision { way: Way::Batches(batch_of, batches), note: Some(note) };
     }
     if by_wide {
-        let why = if ask.values { "its count is shown".to_owned() } else { format!("one caster alone has up to {alone}") };
+        let why = if ask.values {
+            "its count is shown".to_owned()
+        } else if ask.undisturbed {
+            "a batch's collapse would reach other views".to_owned()
+        } else {
+            format!("one caster alone has up to {alone}")
+        };
         let format = ask.capabilities.wide_counts.name();
         return Decision { way: Way::Wide, note: Some(format!("{too_many}, and {why}: counted wide, in {format}")) };
     }

@@ -70,7 +70,7 @@ pub fn stencil_colors(budget: BitBudget, points_mask: u8, scissor: [u32; 4]) -> 
     );
     if let Action::Draw(draw) = &mut step.action {
         // Beyond the light's bounds nothing is counted.
-        draw.constant = [f32::from(budget.beyond()), f32::from(points_mask), 0.0, 0.0];
+        draw.constant = [f32::from(budget.beyond()), f32::from(points_mask), f32::from(budget.mirror_mask), 0.0];
     }
     step
 }

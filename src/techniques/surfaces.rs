@@ -5,6 +5,7 @@
 
 use glam::Vec3;
 
+use super::mirrors::Mirrors;
 use crate::frame::plan::View;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
@@ -16,24 +17,51 @@ use crate::settings::Texturing;
 /// Surfaces that share state and shader.
 #[derive(Debug)]
 pub struct SurfaceGroup {
-    kind: Kind,
-    surfaces: Vec<Surface>,
+    pub(super) kind: Kind,
+    pub(super) surfaces: Vec<Surface>,
 }
 
 /// What decides the state and the shader a surface is drawn with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Kind {
-    cull: Cull,
-    winding: Winding,
-    masked: bool,
+pub(super) struct Kind {
+    pub cull: Cull,
+    pub winding: Winding,
+    pub masked: bool,
     /// Its texture multiplies the sum of all lights, and no light reads it.
-    textured_last: bool,
-    look: Look,
+    pub textured_last: bool,
+    /// Its number among the mirrors in force.
+    pub mirror: Option<usize>,
+    pub look: Look,
+}
+
+/// What is known of a scene's surfaces before they are grouped for a view.
+#[derive(Debug, Clone, Copy)]
+pub struct Known<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Where everything is.
+    pub pose: &'a Pose,
+    /// The mirrors in force.
+    pub mirrors: &'a Mirrors,
+    /// Where things lie before the mirror that the view looks through.
+    pub places: &'a [Place],
+}
+
+/// Where an instance lies before the plane that a view is clipped at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// All of it is before the plane.
+    Before,
+    /// Some of it may be behind.
+    Across,
+    /// Nothing of it is seen.
+    Unseen,
 }
 
 /// The scene's opaque and masked surfaces that the view may see, grouped.
 #[must_use]
-pub fn opaque_groups(scene: &Scene, pose: &Pose, view: &View, size: [u32; 2], texturing: Texturing) -> Vec<SurfaceGroup> {
+pub fn opaque_groups(known: Known<'_>, view: &View, size: [u32; 2], texturing: Texturing) -> Vec<SurfaceGroup> {
+    let Known { scene, pose, .. } = known;
     let clip_from_world = view.camera.clip_from_world();
     // The radius of each instance's bounds; `None` where it is out of view.
     let seen: Vec<Option<f32>> = scene
@@ -45,7 +73,7 @@ pub fn opaque_groups(scene: &Scene, pose: &Pose, view: &View, size: [u32; 2], te
         })
         .collect();
     let mut groups: Vec<SurfaceGroup> = Vec::new();
-    for (mut kind, alpha, surface) in described(scene, pose, view) {
+    for (mut kind, alpha, surface) in described(known, view) {
         if texturing == Texturing::Once && kind.textured_last {
             kind.look.textured = false;
         } else {
@@ -69,11 +97,15 @@ pub fn opaque_groups(scene: &Scene, pose: &Pose, view: &View, size: [u32; 2], te
     groups
 }
 
-fn described<'a>(scene: &'a Scene, pose: &'a Pose, view: &'a View) -> impl Iterator<Item = (Kind, AlphaMode, Surface)> + 'a {
-    scene.instances().enumerate().flat_map(move |(instance, (node, _, mesh))| {
+fn described<'a>(known: Known<'a>, view: &'a View) -> impl Iterator<Item = (Kind, AlphaMode, Surface)> + 'a {
+    let Known { scene, pose, mirrors, places } = known;
+    let through = view.through.as_ref().map(|window| window.surface);
+    let described = scene.instances().enumerate().flat_map(move |(instance, (node, _, mesh))| {
         let winding = view.winding.through(pose.world_from_object[node].matrix3.determinant());
         mesh.primitives.iter().enumerate().map(move |(primitive, part)| {
             let material = &scene.materials[part.material];
+            let surface = Surface { instance, primitive };
+            let mirror = mirrors.of(surface);
             let kind = Kind {
                 cull: if material.double_sided { Cull::None } else { Cull::Back },
                 winding,
@@ -81,29 +113,35 @@ fn described<'a>(scene: &'a Scene, pose: &'a Pose, view: &'a View) -> impl Itera
                 // Masked surfaces need their texture to know where they are, and what surfaces give off by
                 // themselves is no light on their texture.
                 textured_last: material.base_color_texture.is_some()
+                    && mirror.is_none()
                     && material.alpha == AlphaMode::Opaque
                     && material.emissive == Vec3::ZERO,
+                mirror,
                 look: Look {
+                    clipped: places[instance] == Place::Across,
+                    mirror: mirrors.look(mirror),
                     textured: material.base_color_texture.is_some(),
                     glossy: material.roughness < MATT || material.metallic > 0.0,
                     ..Look::default()
                 },
             };
-            (kind, material.alpha, Surface { instance, primitive })
+            (kind, material.alpha, surface)
         })
-    })
+    });
+    let is_seen = move |surface: Surface| places[surface.instance] != Place::Unseen && Some(surface) != through;
+    described.filter(move |(.., surface)| is_seen(*surface))
 }
 
 /// Materials at least this rough, and without metal, get no highlight: it would not be seen.
 const MATT: f32 = 0.9;
 
-fn step(label: String, why: &str, draw: Draw) -> Step {
+pub(super) fn step(label: String, why: &str, draw: Draw) -> Step {
     Step { label, why: why.into(), view: 0, action: Action::Draw(Box::new(draw)) }
 }
 
 /// Ambient and emitted light; lays the depth that everything after is tested against.
 #[must_use]
-pub fn ambient(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
+pub fn ambient<'a>(groups: impl IntoIterator<Item = &'a SurfaceGroup>, scissor: [u32; 4]) -> Vec<Step> {
     let draw = |group: &SurfaceGroup| Draw {
         program: if group.kind.masked { Program::AmbientMasked } else { Program::Ambient },
         look: group.kind.look,
@@ -123,34 +161,22 @@ pub fn ambient(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
         set: DrawSet::Surfaces(group.surfaces.clone()),
     };
     let why = "Draws every surface in ambient and emitted light and lays the depth that all later steps are tested against.";
-    groups.iter().map(|group| step(format!("ambient{}", group.words()), why, draw(group))).collect()
+    groups.into_iter().map(|group| step(format!("ambient{}", group.words()), why, draw(group))).collect()
 }
 
 /// Depth alone, of every surface that does not lay it when it is [`finished`]: those do where nothing is
 /// counted (not `shadowed`) and nothing masked.
 #[must_use]
-pub fn depth(groups: &[SurfaceGroup], shadowed: bool, scissor: [u32; 4]) -> Vec<Step> {
-    let draw = |group: &SurfaceGroup| Draw {
-        program: if group.kind.masked { Program::DepthMasked } else { Program::Depth },
-        look: Look { textured: group.kind.masked && group.kind.look.textured, ..Look::default() },
-        target: Target::Direct,
-        state: State {
-            depth: Depth::LAY,
-            stencil: StencilState::IGNORE,
-            color: None,
-            cull: group.kind.cull,
-            winding: group.kind.winding,
-            near_plane: NearPlane::Clip,
-        },
-        stencil_reference: 0,
-        scissor,
-        light: None,
-        constant: [0.0; 4],
-        set: DrawSet::Surfaces(group.surfaces.clone()),
-    };
+pub fn depth<'a>(groups: impl IntoIterator<Item = &'a SurfaceGroup>, shadowed: bool, scissor: [u32; 4]) -> Vec<Step> {
+    let first = groups.into_iter().filter(|group| !group.lays_depth_when_finished(shadowed));
+    first.map(|group| lay(group, scissor)).collect()
+}
+
+/// Depth alone.
+#[must_use]
+pub fn lay(group: &SurfaceGroup, scissor: [u32; 4]) -> Step {
     let why = "Lays the depth that all later steps are tested against; colour waits until the count is known.";
-    let first = groups.iter().filter(|group| !group.lays_depth_when_finished(shadowed));
-    first.map(|group| step(format!("depth{}", group.words()), why, draw(group))).collect()
+    step(format!("depth{}", group.words()), why, group.depth_draw(Depth::LAY, StencilState::IGNORE, scissor))
 }
 
 /// Where and to what a frame's only light is added.
@@ -219,6 +245,38 @@ pub fn finished(groups: &[SurfaceGroup], only: Option<&OnlyLight<'_>>, scissor: 
     steps
 }
 
+/// One light over surfaces that are [`finished`] in ambient light alone: again in their final colour, with both, where
+/// its count is zero. For where it cannot be asked at once whether a count is zero and which view it is of.
+#[must_use]
+pub fn relit(groups: &[SurfaceGroup], only: &OnlyLight<'_>, scissor: [u32; 4]) -> Vec<Step> {
+    let why = "Ambient light and this one, through the tone curve, where no volume holds the surface.";
+    let of_group = |group: &SurfaceGroup| {
+        let surfaces: Vec<_> = group.surfaces.iter().copied().filter(|surface| only.reached[surface.instance]).collect();
+        let draw = Draw {
+            program: Program::Lit,
+            look: Look { light: only.shape, finished: true, clipped: false, ..group.kind.look },
+            target: Target::Direct,
+            state: group
+                .again(Blend::Replace, only.dark.map_or(StencilState::IGNORE, |dark| StencilState::count_equals(dark.budget))),
+            stencil_reference: 0,
+            scissor,
+            light: Some(only.light),
+            constant: [0.0; 4],
+            set: DrawSet::Surfaces(surfaces.clone()),
+        };
+        (!surfaces.is_empty()).then(|| step(format!("light {}: lit{}", only.light, group.words()), why, draw))
+    };
+    groups.iter().filter_map(of_group).collect()
+}
+
+/// Every surface in the colour that stands for its number ([`crate::frame::identity_color`]).
+#[must_use]
+pub fn identities(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
+    let why = "Every surface in a colour that no other has: which object is seen in which view, for other programs to read.";
+    let of_group = |group: &SurfaceGroup| step(format!("surfaces{}", group.words()), why, group.identity_draw(scissor));
+    groups.iter().map(of_group).collect()
+}
+
 /// A display colour for surfaces that share it.
 #[derive(Debug, Clone, Copy)]
 pub struct Tint<'a> {
@@ -238,7 +296,7 @@ pub struct Tint<'a> {
 pub fn tinted(groups: &[SurfaceGroup], tint: &Tint<'_>, wanted: impl Fn(Surface) -> bool, scissor: [u32; 4]) -> Vec<Step> {
     let draw = |group: &SurfaceGroup, surfaces| Draw {
         program: if group.kind.masked { Program::TintMasked } else { Program::Tint },
-        look: Look { textured: group.kind.masked && group.kind.look.textured, ..Look::default() },
+        look: group.bare_look(),
         target: Target::Scene,
         state: State {
             depth: Depth::LAY,
@@ -262,8 +320,8 @@ pub fn tinted(groups: &[SurfaceGroup], tint: &Tint<'_>, wanted: impl Fn(Surface)
 
 /// One light, added where its count is zero, to the surfaces that `reached` says it may reach.
 #[must_use]
-pub fn lit(
-    groups: &[SurfaceGroup],
+pub fn lit<'a>(
+    groups: impl IntoIterator<Item = &'a SurfaceGroup>,
     light: usize,
     shape: LightShape,
     scissor: [u32; 4],
@@ -272,7 +330,7 @@ pub fn lit(
 ) -> Vec<Step> {
     let draw = |group: &SurfaceGroup, surfaces| Draw {
         program: Program::Lit,
-        look: Look { light: shape, ..group.kind.look },
+        look: Look { light: shape, clipped: false, ..group.kind.look },
         target: Target::Scene,
         state: group.again(Blend::Add, stencil),
         stencil_reference: 0,
@@ -286,7 +344,7 @@ pub fn lit(
         let surfaces: Vec<_> = group.surfaces.iter().copied().filter(|surface| reached[surface.instance]).collect();
         (!surfaces.is_empty()).then(|| step(format!("light {light}: add{}", group.words()), why, draw(group, surfaces)))
     };
-    groups.iter().filter_map(of_group).collect()
+    groups.into_iter().filter_map(of_group).collect()
 }
 
 /// Whether some surfaces' textures are left for after all lights.
@@ -318,8 +376,8 @@ pub fn textures(groups: &[SurfaceGroup], stencil: StencilState, scissor: [u32; 4
 #[must_use]
 pub fn verdict(groups: &[SurfaceGroup], light: usize, scissor: [u32; 4], budget: BitBudget) -> Vec<Step> {
     let verdicts = [
+        ("shadow", StencilState::IGNORE, 0.0, "Black within the light's range, until the count says otherwise."),
         ("lit", StencilState::count_equals(budget), 1.0, "White where the count is zero, within the light's range."),
-        ("shadow", StencilState::count_differs(budget), 0.0, "Black where the count is not zero, within the light's range."),
     ];
     let mut steps = Vec::new();
     for (name, stencil, value, why) in verdicts {
@@ -343,9 +401,10 @@ pub fn verdict(groups: &[SurfaceGroup], light: usize, scissor: [u32; 4], budget:
 
 /// Blended surfaces, far to near, in every light, unshadowed.
 #[must_use]
-pub fn transparent(scene: &Scene, pose: &Pose, view: &View, scissor: [u32; 4]) -> Vec<Step> {
+pub fn transparent(known: Known<'_>, view: &View, scissor: [u32; 4]) -> Vec<Step> {
+    let Known { scene, pose, .. } = known;
     let nodes: Vec<_> = scene.instances().map(|(node, ..)| node).collect();
-    let mut blended: Vec<_> = described(scene, pose, view)
+    let mut blended: Vec<_> = described(known, view)
         .filter(|(_, alpha, _)| *alpha == AlphaMode::Blend)
         .map(|(kind, _, surface)| {
             let center = pose.world_bounds(scene, nodes[surface.instance]).center();
@@ -397,6 +456,53 @@ impl SurfaceGroup {
         !shadowed && !self.kind.masked
     }
 
+    /// Which mirror it is, where it is one.
+    #[must_use]
+    pub fn mirror(&self) -> Option<usize> {
+        self.kind.mirror
+    }
+
+    /// What lays its depth alone.
+    fn depth_program(&self) -> Program {
+        if self.kind.masked || self.kind.look.clipped { Program::DepthMasked } else { Program::Depth }
+    }
+
+    /// Nothing but what decides where it is.
+    fn bare_look(&self) -> Look {
+        let Look { textured, clipped, .. } = self.kind.look;
+        Look { textured: self.kind.masked && textured, clipped, ..Look::default() }
+    }
+
+    /// In the colour of their numbers; lays depth.
+    fn identity_draw(&self, scissor: [u32; 4]) -> Draw {
+        Draw {
+            program: Program::Identity,
+            look: self.bare_look(),
+            target: Target::Scene,
+            state: State { depth: Depth::LAY, ..self.again(Blend::Replace, StencilState::IGNORE) },
+            stencil_reference: 0,
+            scissor,
+            light: None,
+            constant: [0.0; 4],
+            set: DrawSet::Surfaces(self.surfaces.clone()),
+        }
+    }
+
+    /// Its depth alone, and how it is compared.
+    pub(super) fn depth_draw(&self, depth: Depth, stencil: StencilState, scissor: [u32; 4]) -> Draw {
+        Draw {
+            program: self.depth_program(),
+            look: self.bare_look(),
+            target: Target::Scene,
+            state: State { depth, color: None, ..self.again(Blend::Replace, stencil) },
+            stencil_reference: 0,
+            scissor,
+            light: None,
+            constant: [0.0; 4],
+            set: DrawSet::Surfaces(self.surfaces.clone()),
+        }
+    }
+
     /// Drawn again over its own depth.
     fn again(&self, blend: Blend, stencil: StencilState) -> State {
         State {
@@ -409,7 +515,7 @@ impl SurfaceGroup {
         }
     }
 
-    fn words(&self) -> String {
+    pub(super) fn words(&self) -> String {
         let mut words = String::new();
         let kind = &self.kind;
         for (there, word) in [
@@ -419,6 +525,8 @@ impl SurfaceGroup {
             (kind.textured_last, ", textured last"),
             (kind.look.textured, ", textured"),
             (kind.look.glossy, ", glossy"),
+            (kind.look.clipped, ", clipped"),
+            (kind.mirror.is_some(), ", mirror"),
         ] {
             if there {
                 words.push_str(word);

@@ -1,0 +1,314 @@
+//! A frame with mirrors: every view is drawn like the eye's own, in the pixels of its mirror.
+//!
+//! A view's mirrors are drawn before its lights: what a mirror shows of itself is added to its reflection, light by
+//! light, and the stencil's count is free until then. Where exact values are shown it is the other way round: what a
+//! view counted stays in its pixels, but where a mirror shows another.
+
+use super::views::Outlook;
+use super::{Frame, MID_GREY, rounds};
+use crate::frame::stencil::StencilState;
+use crate::frame::{Clear, Target};
+use crate::scene::AlphaMode;
+use crate::settings::{Show, Texturing};
+use crate::techniques::mirrors::{self, Cover};
+use crate::techniques::own_bits::{Round, Shining};
+use crate::techniques::surfaces::{self, SurfaceGroup, Tint};
+use crate::techniques::{show, surfaces as drawn};
+
+/// One view's surfaces.
+struct Stage {
+    /// Those that reflect nothing.
+    plain: Vec<SurfaceGroup>,
+    /// Mirrors without a view.
+    grey: Vec<SurfaceGroup>,
+    /// Mirrors with the view through each.
+    open: Vec<(SurfaceGroup, usize)>,
+}
+
+impl Frame<'_> {
+    /// The whole frame but its last step, which makes the picture of it; true where there is nothing left to do.
+    pub(super) fn draw_reflections(&mut self) -> bool {
+        self.start(0);
+        match self.settings.show {
+            Show::Final if self.may_reflect_directly() => {
+                self.plan.steps.clear();
+                self.clear_all([0.0, 0.0, 0.0, 1.0], 0);
+                self.draw_view(true);
+                self.push(show::background(self.whole()));
+                true
+            }
+            Show::Final | Show::Volumes | Show::Wireframe => {
+                self.draw_view(false);
+                false
+            }
+            _ => {
+                self.plan.steps.clear();
+                self.draw_exactly();
+                true
+            }
+        }
+    }
+
+    /// One light at most, and mirrors that show nothing but their reflection.
+    fn may_reflect_directly(&self) -> bool {
+        let lights = self.pose.lights.iter().filter(|light| light.on).count();
+        let blended = |(_, _, mesh): (_, _, &crate::scene::Mesh)| {
+            mesh.primitives.iter().any(|part| self.scene.materials[part.material].alpha == AlphaMode::Blend)
+        };
+        lights <= 1 && self.mirrors.all_perfect() && self.may_draw_directly() && !self.scene.instances().any(blended)
+    }
+
+    /// The surfaces of the view, apart by what is done with them.
+    fn stage(&self, texturing: Texturing) -> Stage {
+        let view = self.outlook.view;
+        let children = self.children(view);
+        let mut stage = Stage { plain: Vec::new(), grey: Vec::new(), open: Vec::new() };
+        for group in surfaces::opaque_groups(self.known(), self.view(), self.plan.size, texturing) {
+            let through = |child: &&usize| self.plan.views[**child].path().last().copied() == group.mirror();
+            match (group.mirror(), children.iter().find(through)) {
+                (None, _) => stage.plain.push(group),
+                (Some(_), None) => stage.grey.push(group),
+                (Some(_), Some(child)) => stage.open.push((group, *child)),
+            }
+        }
+        stage
+    }
+
+    /// Surfaces, what their mirrors show, and then the lights.
+    fn draw_view(&mut self, direct: bool) {
+        let (whole, exposure) = (self.whole(), self.plan.exposure);
+        let stage = self.stage(self.texturing());
+        let is_eye = self.outlook.view == 0;
+        // The eye's own way of drawing directly asks for counts that are not zero, which in a mirror it cannot.
+        let depth_first = direct && is_eye && self.pose.lights.iter().any(|light| light.on && light.shadows);
+        if direct {
+            let depth = drawn::depth(&stage.plain, depth_first, whole);
+            self.extend_onto(Target::Direct, depth);
+            if !depth_first {
+                self.extend(drawn::finished(&stage.plain, None, whole));
+            }
+            let grey = drawn::finished(&stage.grey, None, whole);
+            self.extend_grey(&stage.grey, grey);
+        } else {
+            self.extend(drawn::ambient(&stage.plain, whole));
+            let grey = drawn::ambient(&stage.grey, whole);
+            self.extend_grey(&stage.grey, grey);
+        }
+        let target = if direct { Target::Direct } else { Target::Scene };
+        let open = stage.open.iter().map(|(group, _)| drawn::lay(group, whole)).collect();
+        self.extend_onto(target, open);
+        self.draw_children(&stage.open, |frame| frame.draw_view(direct), if direct { Cover::Finished } else { Cover::Light });
+
+        if direct {
+            self.light_directly(&stage.plain, depth_first);
+            return;
+        }
+        for (group, child) in &stage.open {
+            let bounces = self.plan.views[*child].path().len();
+            if let Some(step) = self.mirrors.own(group, bounces, exposure, whole) {
+                self.push(step);
+            }
+        }
+        for round in self.rounds() {
+            self.start_round(&round);
+            let Round { steps, lights, .. } = round;
+            self.extend(steps);
+            for Shining { light, rect, budget } in lights {
+                let once = budget.map_or_else(|| self.unused_bit(Some(light)), StencilState::light_once);
+                let (reached, shape) = (self.reached(light), (&self.pose.lights[light]).into());
+                self.extend(drawn::lit(&stage.plain, light, shape, rect, once, &reached));
+                let mirrors = stage.grey.iter().chain(stage.open.iter().map(|(group, _)| group));
+                let own = mirrors.filter(|group| group.mirror().is_some_and(|mirror| !self.mirrors.is_perfect(mirror)));
+                let lit = |group| self.mirrors.lit(group, drawn::lit([group], light, shape, rect, once, &reached));
+                let steps = own.flat_map(lit).collect();
+                self.extend(steps);
+            }
+        }
+        if drawn::textured_last(&stage.plain) {
+            let once = self.unused_bit(None);
+            self.extend(drawn::textures(&stage.plain, once, whole));
+        }
+        self.extend(drawn::transparent(self.known(), self.view(), whole));
+    }
+
+    /// The frame's one light, over surfaces in their final colour.
+    fn light_directly(&mut self, groups: &[SurfaceGroup], depth_first: bool) {
+        let whole = self.whole();
+        let round = self.rounds().pop();
+        if let Some(round) = &round {
+            self.start_round(round);
+        }
+        let round = round.unwrap_or_default();
+        let steps = round.steps;
+        self.extend_onto(Target::Direct, steps);
+        let shining = round.lights.first().copied();
+        let reached = shining.map(|shining| self.reached(shining.light)).unwrap_or_default();
+        let only = shining.map(|Shining { light, budget, .. }| surfaces::OnlyLight {
+            light,
+            shape: (&self.pose.lights[light]).into(),
+            reached: &reached,
+            dark: budget.map(|budget| surfaces::Dark { budget, scissor: whole }),
+        });
+        if depth_first {
+            self.extend(drawn::finished(groups, only.as_ref(), whole));
+        } else if let Some(only) = &only {
+            self.extend(drawn::relit(groups, only, shining.map_or(whole, |shining| shining.rect)));
+        }
+    }
+
+    /// Each mirror's view, where the mirror is seen.
+    fn draw_children(&mut self, open: &[(SurfaceGroup, usize)], mut draw: impl FnMut(&mut Self), cover: Cover) {
+        for (group, child) in open {
+            let dims = cover == Cover::Light;
+            let target = if cover == Cover::Finished { Target::Direct } else { Target::Scene };
+            let tag = self.mirrors.tag(group, &self.plan, *child);
+            self.plan.steps.push(onto(target, tag));
+            let outer: Outlook = self.look_from(*child);
+            self.used = u8::MAX;
+            self.push(mirrors::cover(&self.plan.views[*child], cover));
+            draw(self);
+            self.outlook = outer;
+            let uncover = self.mirrors.uncover(group, &self.plan, *child, dims);
+            self.plan.steps.push(onto(target, uncover));
+            self.used = u8::MAX;
+        }
+    }
+
+    /// What exact values are shown of: each view's own, mirrors as windows.
+    fn draw_exactly(&mut self) {
+        match self.settings.show {
+            Show::Surfaces => {
+                self.clear_all([0.0; 4], 0);
+                self.draw_identities();
+                self.push(show::copy(self.whole()));
+            }
+            Show::Views => {
+                self.clear_all(UNSEEN, 0);
+                self.draw_paths();
+                self.push(show::copy(self.whole()));
+            }
+            _ => self.draw_values(),
+        }
+    }
+
+    fn draw_identities(&mut self) {
+        let whole = self.whole();
+        let stage = self.stage(Texturing::EachLight);
+        self.extend(drawn::identities(&stage.plain, whole));
+        self.extend(drawn::identities(&stage.grey, whole));
+        let open = stage.open.iter().map(|(group, _)| drawn::lay(group, whole)).collect();
+        self.extend(open);
+        self.draw_children(&stage.open, Self::draw_identities, Cover::Value([0.0; 4]));
+    }
+
+    fn draw_paths(&mut self) {
+        let whole = self.whole();
+        let stage = self.stage(Texturing::EachLight);
+        let [r, g, b] = path_color(self.view().path());
+        let tint = Tint {
+            label: "view",
+            why: "Every surface in the colour of the mirrors on the way to it.",
+            color: [r, g, b, 1.0],
+            inside: false,
+        };
+        self.extend(drawn::tinted(&stage.plain, &tint, |_| true, whole));
+        self.extend(drawn::tinted(&stage.grey, &Tint { color: NO_VIEW, ..tint }, |_| true, whole));
+        let open = stage.open.iter().map(|(group, _)| drawn::lay(group, whole)).collect();
+        self.extend(open);
+        self.draw_children(&stage.open, Self::draw_paths, Cover::Value(UNSEEN));
+    }
+
+    /// One light's count, or verdict, in every view.
+    fn draw_values(&mut self) {
+        let (light, stencil) = (self.settings.light, self.settings.show == Show::Stencil);
+        let rounds::Counted { count, points_mask } = self.count_shown(light);
+        let color = if stencil { [0.0; 4] } else { [MID_GREY, MID_GREY, MID_GREY, 1.0] };
+        self.clear_all(color, count.base);
+        let budget = count.budget;
+        self.draw_value(count);
+        let whole = self.whole();
+        if stencil {
+            self.push(show::stencil_colors(budget, points_mask, whole));
+        } else {
+            self.push(show::copy(whole));
+        }
+    }
+
+    fn draw_value(&mut self, count: crate::techniques::counting::LightCount) {
+        let (whole, light, stencil) = (self.whole(), self.settings.light, self.settings.show == Show::Stencil);
+        let stage = self.stage(Texturing::EachLight);
+        let all: Vec<&SurfaceGroup> =
+            stage.plain.iter().chain(&stage.grey).chain(stage.open.iter().map(|(group, _)| group)).collect();
+        if stencil {
+            self.extend(drawn::ambient(all.iter().copied(), whole));
+        } else {
+            self.extend(all.iter().map(|group| drawn::lay(group, whole)).collect());
+        }
+        self.extend(count.steps);
+        if !stencil && let Some(scissor) = self.light_rect(light) {
+            for group in &all {
+                self.extend(drawn::verdict(std::slice::from_ref(*group), light, scissor, count.budget));
+            }
+        }
+        let color = if stencil { [0.0; 4] } else { [MID_GREY, MID_GREY, MID_GREY, 1.0] };
+        let draw = |frame: &mut Self| {
+            let count = frame.count(light);
+            frame.reset_view("reset the count", "This view counts from how many volumes hold its own eye.", count.base);
+            frame.draw_value(count);
+        };
+        self.draw_children(&stage.open, draw, Cover::Value(color));
+    }
+
+    /// All bits but the mirrors', in the view's pixels.
+    pub(super) fn reset_view(&mut self, label: &str, why: &str, value: u8) {
+        if self.outlook.view == 0 {
+            self.clear(label.into(), why, Clear { color: None, depth: None, stencil: Some(value), counts: None });
+        } else {
+            self.push(mirrors::reset(label.into(), why, self.plan.budget, value, self.whole()));
+        }
+    }
+
+    fn extend_grey(&mut self, groups: &[SurfaceGroup], steps: Vec<crate::frame::Step>) {
+        // One step for each: a mirror is a group by itself.
+        for (group, step) in groups.iter().zip(steps) {
+            let steps = self.mirrors.grey(group, self.plan.exposure, vec![step]);
+            self.extend(steps);
+        }
+    }
+
+    fn extend_onto(&mut self, target: Target, steps: Vec<crate::frame::Step>) {
+        for step in steps {
+            self.push(onto(target, step));
+        }
+    }
+}
+
+fn onto(target: Target, step: crate::frame::Step) -> crate::frame::Step {
+    crate::frame::Step { action: step.action.onto(target), ..step }
+}
+
+/// Where a view shows nothing: a display value.
+const UNSEEN: [f32; 4] = [0.055, 0.06, 0.075, 1.0];
+
+/// A mirror past the last bounce: K's neutral grey.
+const NO_VIEW: [f32; 4] = [0.5, 0.5, 0.5, 1.0];
+
+/// A display colour for a path of mirrors: each mirror has a hue, each bounce turns it on and makes it paler.
+fn path_color(path: &[usize]) -> [f32; 3] {
+    if path.is_empty() {
+        return [0.78, 0.77, 0.74];
+    }
+    /// A turn by the golden section sets neighbours far apart.
+    const GOLDEN: f32 = 0.618_034;
+    #[expect(clippy::cast_precision_loss, reason = "a hue")]
+    let turned = path.iter().enumerate().map(|(bounce, mirror)| (*mirror as f32 + 1.0) * GOLDEN * (1.0 + 0.37 * bounce as f32));
+    let hue = turned.sum::<f32>().fract();
+    #[expect(clippy::cast_precision_loss, reason = "eight bounces at most")]
+    let depth = (path.len() - 1) as f32;
+    let (saturation, value) = (0.72 * 0.86f32.powf(depth), 0.95 * 0.93f32.powf(depth));
+    let channel = |offset: f32| {
+        let at = ((hue + offset).fract() * 6.0 - 3.0).abs() - 1.0;
+        value * (1.0 - saturation * (1.0 - at.clamp(0.0, 1.0)))
+    };
+    [channel(0.0), channel(2.0 / 3.0), channel(1.0 / 3.0)]
+}

@@ -1,0 +1,179 @@
+//! The eye, the eyes reflected in mirrors, and what is known of one of them while its steps are planned.
+
+use std::cell::OnceCell;
+
+use super::Frame;
+use crate::frame::plan::{View, Window};
+use crate::frame::state::Winding;
+use crate::geometry::frustum::NearPyramid;
+use crate::geometry::planar::height;
+use crate::geometry::sight::{Sight, worst_case};
+use crate::geometry::{Aabb, Body};
+use crate::scene::{Pose, Scene};
+use crate::settings::Show;
+use crate::techniques;
+use crate::techniques::culling::Stalls;
+use crate::techniques::mirrors::Mirrors;
+use crate::techniques::surfaces::Place;
+
+/// Views in one frame: mirrors that show each other may have more than anyone waits for.
+const MOST_VIEWS: usize = 512;
+
+/// Of the scene's radius: how high over a mirror's plane a reflection begins.
+pub const SLACK: f64 = 1e-5;
+
+/// One view, and what is asked of it again and again.
+pub(super) struct Outlook {
+    /// Its number among the plan's.
+    pub view: usize,
+    /// Between its eye and its near rectangle.
+    pub near_pyramid: NearPyramid,
+    /// Of each instance, whether it reaches into that pyramid, once asked.
+    pub across: Vec<OnceCell<bool>>,
+    /// Where everything is.
+    pub stalls: Stalls,
+    /// Every surface, and the eye: volumes need not reach farther.
+    pub receivers: Aabb,
+    /// Where each instance lies before the mirror that is looked through.
+    pub places: Vec<Place>,
+}
+
+impl Outlook {
+    /// Of a view; through a mirror, all that is seen of the world lies in `window`.
+    pub fn new(scene: &Scene, pose: &Pose, (number, view): (usize, &View), window: Option<Body>) -> Self {
+        let camera = &view.camera;
+        let stalls = Stalls::new(scene, pose, view, window);
+        let place = |instance: usize, node: usize| {
+            let Some(window) = &view.through else { return Place::Before };
+            let world_from_object = &pose.world_from_object[node];
+            let corners = pose.bounds(scene, node).corners();
+            let heights = corners.map(|corner| height(window.plane, world_from_object.transform_point3(corner)));
+            if heights.iter().all(|height| *height <= window.slack) || !stalls.in_window(&stalls.boxes[instance]) {
+                Place::Unseen
+            } else if heights.iter().all(|height| *height > 2.0 * window.slack) {
+                Place::Before
+            } else {
+                Place::Across
+            }
+        };
+        let places = scene.instances().enumerate().map(|(instance, (node, ..))| place(instance, node)).collect();
+        Self {
+            view: number,
+            near_pyramid: NearPyramid::of(camera.eye, camera.near_rectangle()),
+            across: vec![OnceCell::new(); scene.instances().count()],
+            stalls,
+            receivers: scene.bounds(pose).union(&Aabb::around(camera.eye, camera.eye)),
+            places,
+        }
+    }
+}
+
+impl Frame<'_> {
+    /// The view whose steps are planned.
+    pub(super) fn view(&self) -> &View {
+        &self.plan.views[self.outlook.view]
+    }
+
+    /// The views that are seen in a view's mirrors.
+    pub(super) fn children(&self, parent: usize) -> Vec<usize> {
+        let seen_in = |view: &View| view.through.as_ref().is_some_and(|window| window.parent == parent);
+        (0..self.plan.views.len()).filter(|&view| seen_in(&self.plan.views[view])).collect()
+    }
+
+    /// Another view's steps are planned from now on; gives what was known of the one before.
+    pub(super) fn look_from(&mut self, view: usize) -> Outlook {
+        let window = self.sights[view].body();
+        let outlook = Outlook::new(self.scene, self.pose, (view, &self.plan.views[view]), Some(window));
+        std::mem::replace(&mut self.outlook, outlook)
+    }
+
+    /// Plans a view for each mirror that is seen, and for each that is seen in that, as far as the bounces go; and takes
+    /// the stencil's bits that tell them apart.
+    pub(super) fn plan_views(&mut self) {
+        let shows_mirrors = match self.settings.show {
+            Show::Final | Show::Stencil | Show::Shadow | Show::Volumes | Show::Wireframe | Show::Surfaces | Show::Views => true,
+            Show::Overflow | Show::Cases | Show::Bounds => false,
+        };
+        let (mirrors, notes) = Mirrors::new(self.scene, self.pose, &self.settings.mirrors);
+        self.plan.notes.extend(notes);
+        if mirrors.is_empty() || !shows_mirrors {
+            return;
+        }
+        if techniques::row(self.settings.technique).darkens.is_some() {
+            self.plan.notes.push("mirrors are ordinary surfaces here: a dark quad knows no view".into());
+            return;
+        }
+        let camera = self.plan.views[0].camera;
+        self.sights = vec![Sight::of_eye(camera.eye, camera.clip_from_world(), self.plan.size)];
+        self.mirrors = mirrors;
+        let mut grower = Grower { frame: self, too_small: 0, too_many: 0 };
+        grower.grow(0);
+        let Grower { too_small, too_many, .. } = grower;
+        if too_many > 0 {
+            self.plan.notes.push(format!("{too_many} mirrors are grey: {MOST_VIEWS} views are the most"));
+        }
+        let counted = &mut self.plan.reflections;
+        counted.mirrors = self.mirrors.len();
+        counted.bounces = self.mirrors.bounces();
+        counted.worst_case = worst_case(counted.mirrors, counted.bounces);
+        counted.too_small = too_small;
+        let deepest = self.plan.views.iter().map(|view| view.path().len()).max().unwrap_or(0);
+        if deepest > 0 {
+            self.plan.budget = self.plan.budget.with_mirrors(u32::try_from(deepest).unwrap_or(u32::MAX));
+            let budget = self.plan.budget;
+            for view in &mut self.plan.views {
+                if let Some(window) = &mut view.through {
+                    window.level = budget.level(u32::try_from(window.path.len()).unwrap_or(0));
+                }
+            }
+        }
+    }
+}
+
+/// The tree of views, growing.
+struct Grower<'f, 'a> {
+    frame: &'f mut Frame<'a>,
+    too_small: usize,
+    too_many: usize,
+}
+
+impl Grower<'_, '_> {
+    /// The views in one view's mirrors, each with all that is seen in it.
+    fn grow(&mut self, at: usize) {
+        let frame = &mut *self.frame;
+        let (sight, seen_from) = (frame.sights[at].clone(), frame.plan.views[at].clone());
+        if sight.bounces >= frame.mirrors.bounces() as usize {
+            return;
+        }
+        let slack = SLACK * f64::from(frame.scene.bounds(frame.pose).radius());
+        let mut found = Vec::new();
+        for (number, mirror, posed) in frame.mirrors.posed() {
+            let surface = crate::frame::Surface { instance: mirror.instance, primitive: mirror.primitive };
+            if seen_from.through.as_ref().is_some_and(|window| window.surface == surface) {
+                continue;
+            }
+            let Some(reflected) = sight.reflected(&posed.triangles, posed.plane, mirror.double_sided) else { continue };
+            if reflected.area < f64::from(frame.settings.mirrors.least_pixels) {
+                self.too_small += 1;
+                continue;
+            }
+            let Some(rect) = reflected.sight.rect() else { continue };
+            let path: Vec<_> = seen_from.path().iter().copied().chain([number]).collect();
+            let window = Window { parent: at, path, surface, plane: reflected.sight.near, slack, level: 0 };
+            found.push((reflected.sight, rect, window, format!("{} > {}", seen_from.name, mirror.name)));
+        }
+        for (sight, rect, window, name) in found {
+            let frame = &mut *self.frame;
+            let view = frame.plan.views.len();
+            if view >= MOST_VIEWS {
+                self.too_many += 1;
+                continue;
+            }
+            let camera = seen_from.camera.reflected(window.plane);
+            let winding = if camera.mirrored { Winding::Cw } else { Winding::Ccw };
+            frame.plan.views.push(View { name, camera, winding, rect, through: Some(window) });
+            frame.sights.push(sight);
+            self.grow(view);
+        }
+    }
+}
