@@ -7,10 +7,10 @@ mod common;
 use common::{Build, Shot, Stage, cube, seen_from};
 use glam::{DVec3, Vec3};
 use obscura::director::stage;
-use obscura::frame::{Camera, Capabilities, FramePlan, Program};
+use obscura::frame::{Camera, Capabilities, DrawSet, FramePlan, Program, Stroke};
 use obscura::headless::wander::strays;
 use obscura::scene::{LightKind, Scene, stock};
-use obscura::settings::{Culling, LightBounds, LightEdit, Settings, Show, Technique};
+use obscura::settings::{CameraChoice, Culling, LightBounds, LightEdit, Settings, Show, Technique};
 use obscura::techniques::bounds::EYE;
 use obscura::techniques::cases::Class;
 
@@ -114,6 +114,100 @@ fn a_lights_range_is_a_circle_of_its_hue() {
     assert!(on_circle * 10 < there, "{on_circle} of {there}");
 }
 
+/// The lines over the view from above.
+fn strokes(plan: &FramePlan) -> Vec<Stroke> {
+    let lines = plan.draws().find_map(|(_, draw)| match &draw.set {
+        DrawSet::Strokes(strokes) => Some(strokes.clone()),
+        _ => None,
+    });
+    lines.unwrap()
+}
+
+/// Whether a line of two points leads from one pixel to the other, or back.
+fn joins(stroke: &Stroke, ends: [[f64; 2]; 2]) -> bool {
+    let near = |at, end| distance_of(at, end) < 0.01;
+    matches!(stroke.points[..], [a, b] if (near(a, ends[0]) && near(b, ends[1])) || (near(a, ends[1]) && near(b, ends[0])))
+}
+
+#[test]
+fn what_bounds_the_scissor_is_drawn_as_that_which_was_chosen() {
+    let (mut scene, settings) = scene();
+    scene.lights[0].range = 1.5;
+    let by = |scene: &Scene, light_bounds| {
+        let culling = Culling { light_bounds, ..settings.culling };
+        planned(scene, &Settings { culling, ..settings.clone() })
+    };
+    let boxed = by(&scene, LightBounds::Box);
+    let corner = |at: usize| LAMP + DVec3::from([1, 2, 4].map(|axis| if at & axis == 0 { -1.5 } else { 1.5 }));
+    let mut found = 0;
+    for (a, b) in (0..8).flat_map(|a| [1, 2, 4].map(|axis| (a, a | axis))).filter(|(a, b)| a != b) {
+        let ends = [a, b].map(|at| pixel_of(&boxed, corner(at)).unwrap());
+        assert!(strokes(&boxed).iter().any(|stroke| joins(stroke, ends)), "edge {a} {b}");
+        assert!(!strokes(&by(&scene, LightBounds::Sphere)).iter().any(|stroke| joins(stroke, ends)));
+        found += 1;
+    }
+    assert_eq!(found, 12);
+    // A spot's cone: lines from the lamp to its rim.
+    scene.lights[0].kind = LightKind::Spot { inner: 0.1, outer: 0.5 };
+    let coned = by(&scene, LightBounds::Cone);
+    let apex = pixel_of(&coned, LAMP).unwrap();
+    let from_apex = |plan: &FramePlan| {
+        let starts = |stroke: &Stroke| stroke.points.len() == 2 && distance_of(stroke.points[0], apex) < 0.01;
+        strokes(plan).iter().filter(|stroke| starts(stroke)).count()
+    };
+    assert_eq!((from_apex(&coned), from_apex(&by(&scene, LightBounds::Sphere))), (8, 0));
+}
+
+fn distance_of(a: [f32; 2], b: [f64; 2]) -> f64 {
+    (f64::from(a[0]) - b[0]).hypot(f64::from(a[1]) - b[1])
+}
+
+#[test]
+fn the_scissor_is_a_slice_of_the_frustum() {
+    let (mut scene, settings) = scene();
+    scene.lights[0].range = 4.0;
+    let plan = planned(&scene, &settings);
+    let counted = planned(&scene, &Settings { show: Show::Shadow, ..settings.clone() });
+    let eye = counted.views[0].camera;
+    let of_light = counted.draws().filter(|(_, draw)| draw.light == Some(0)).map(|(_, draw)| draw.scissor);
+    let [x, y, width, height] = of_light.max_by_key(|rect| rect[2] * rect[3]).unwrap();
+    assert!(x > 8 && y + height <= SIZE[1] && x + width <= SIZE[0], "the lamp is to the right: {x} {width}");
+    let slices: Vec<_> = strokes(&plan).into_iter().filter(|stroke| stroke.fill.is_some() && stroke.width == 2.0).collect();
+    let held = |pixel: [f64; 2]| {
+        // Where the eye's ray through that pixel is halfway to the floor.
+        let corners = eye.near_rectangle_of([pixel[0] as u32, pixel[1] as u32, 1, 1], SIZE);
+        let way = (corners.iter().sum::<DVec3>() / 4.0 - eye.eye).normalize();
+        let at = pixel_of(&plan, eye.eye + way * 3.0).unwrap();
+        slices.iter().any(|slice| {
+            let points = &slice.points;
+            let turns = (0..points.len()).map(|index| {
+                let ([ax, ay], [bx, by]) = (points[index].map(f64::from), points[(index + 1) % points.len()].map(f64::from));
+                (bx - ax) * (at[1] - ay) - (by - ay) * (at[0] - ax)
+            });
+            let turns: Vec<_> = turns.collect();
+            points.len() > 8 && (turns.iter().all(|turn| *turn > 0.0) || turns.iter().all(|turn| *turn < 0.0))
+        })
+    };
+    let middle = f64::from(SIZE[1]) * 0.6;
+    assert!(held([f64::from(x) + f64::from(width) * 0.5, middle]), "in the scissor's middle");
+    assert!(held([f64::from(x) + 6.0, middle]) && !held([f64::from(x) - 6.0, middle]), "about its left border");
+}
+
+#[test]
+fn volumes_are_glass_the_thinner_the_more_there_are() {
+    let alphas = |scene: &Scene, settings: &Settings| -> Vec<f32> {
+        let plan = planned(scene, settings);
+        plan.draws().filter(|(_, draw)| draw.program == Program::VolumeGlass).map(|(_, draw)| draw.constant[3]).collect()
+    };
+    let (few, settings) = scene();
+    let few = alphas(&few, &settings);
+    let many = stock::build("stairs").unwrap().unwrap();
+    let many = alphas(&many, &Settings { camera: CameraChoice::First, ..settings });
+    assert!(!few.is_empty() && !many.is_empty());
+    assert!(few.iter().all(|alpha| *alpha > 0.05), "{few:?}");
+    assert!(many.iter().all(|alpha| *alpha > 0.01 && *alpha < few[0] * 0.7), "{many:?} of {few:?}");
+}
+
 #[test]
 fn casters_have_their_cases_colours_also_out_of_the_eyes_view() {
     let mut stage = Stage::new();
@@ -166,6 +260,8 @@ fn what_covers_the_eye_is_cut_away_and_nothing_else() {
         let shift = if roofed { 0.0 } else { 6.0 };
         build.place(slab, DVec3::new(shift, 3.1, 0.0), DVec3::new(2.5, 0.1, 2.5));
         build.place(slab, DVec3::new(1.2, 0.3, -1.2), DVec3::splat(0.3));
+        // A wall that is cut open with the roof.
+        build.place(slab, DVec3::new(-2.0, 1.55, 0.0), DVec3::new(0.4, 1.45, 2.0));
         build.point_light(DVec3::new(-1.0, 2.0, 0.5));
         let settings = seen_from(DVec3::new(0.0, 1.0, 1.5), DVec3::new(0.0, 0.5, -3.0), SIZE);
         (build.0, Settings { show: Show::Bounds, technique: Technique::Auto, ..settings })
@@ -179,6 +275,11 @@ fn what_covers_the_eye_is_cut_away_and_nothing_else() {
         // The small cube under the roof, or beside it, is seen: bluer than the floor is.
         let [r, _, b] = color(&shot, pixel_of(&shot.plan, DVec3::new(1.2, 0.6, -1.2)).unwrap());
         assert!(b > r * 1.5 && b > 0.5, "roofed {roofed}: {r} {b}");
+        // The inside of the wall is dark where it is cut; where it is whole its top is not.
+        let camera = shot.plan.views[0].camera;
+        let top = if roofed { camera.eye.y - camera.near } else { 3.0 };
+        let wall = color(&shot, pixel_of(&shot.plan, DVec3::new(-2.0, top, 1.7)).unwrap());
+        assert_eq!(wall.iter().all(|value| *value < 0.25), roofed, "roofed {roofed}: {wall:?}");
     }
     // The roof is there from above when the eye stands beside it.
     let (scene, settings) = room(true);

@@ -5,10 +5,11 @@
 mod common;
 
 use common::{Build, Shot, Stage, cube, seen_from};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use image::Rgba;
 use obscura::frame::{Camera, Case, DrawSet, Reason};
-use obscura::scene::Scene;
+use obscura::scene::mesh::MeshParts;
+use obscura::scene::{Mesh, Primitive, Scene};
 use obscura::settings::{LightEdit, Settings, Show, Technique};
 use obscura::techniques::cases::{BACKGROUND, Class, classes};
 
@@ -88,6 +89,40 @@ fn every_pixel_has_the_colour_of_its_casters_case() {
     // What is out of view still has its colour in the plan.
     let found = classes(&scene, &shot.plan.volumes, 0, true);
     assert_eq!(found, [Class::Receiver, Class::Three, Class::Two, Class::One, Class::LeftOut]);
+}
+
+#[test]
+fn what_of_a_caster_casts_nothing_has_a_receivers_colour() {
+    // Two squares of one mesh side by side, the right one of which casts nothing.
+    let square = |left: f32, right: f32| [[left, -1.0], [right, -1.0], [right, 1.0], [left, 1.0]];
+    let corners = [square(-2.0, -0.2), square(0.2, 2.0)].concat();
+    let half = |first_index, casts_shadow| Primitive { first_index, index_count: 6, material: 1, casts_shadow };
+    let pair = Mesh::new(MeshParts {
+        name: "pair".into(),
+        positions: corners.into_iter().map(|[x, y]| Vec3::new(x, y, 0.0)).collect(),
+        normals: None,
+        uvs: None,
+        colors: None,
+        indices: vec![0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7],
+        primitives: vec![half(0, true), half(6, false)],
+        skin: Vec::new(),
+        morphs: Vec::new(),
+        morph_weights: Vec::new(),
+    })
+    .unwrap();
+    let mut build = Build::new();
+    build.floor(-2.0, 40.0);
+    let pair = build.mesh(pair);
+    build.place(pair, DVec3::new(0.0, 0.0, -6.0), DVec3::ONE);
+    build.point_light(DVec3::new(0.0, 2.0, 1.0));
+    let settings = Settings { show: Show::Cases, ..seen_from(DVec3::ZERO, DVec3::new(0.0, 0.0, -10.0), SIZE) };
+    let mut stage = Stage::new();
+    stage.set_scene(&build.0);
+    let shot = stage.shoot(&settings, &build.0);
+    let camera = shot.plan.views[0].camera;
+    let at = |x: f64| class_of(pixel_at(&shot, &camera, DVec3::new(x, 0.0, -6.0))).unwrap();
+    assert!(matches!(at(-1.0), Class::One | Class::Three), "{:?}", at(-1.0));
+    assert_eq!(at(1.0), Class::Receiver);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use common::{Build, Stage, cube, mesh, seen_from, square};
 use glam::DVec3;
 use obscura::frame::{Method, Reason};
 use obscura::scene::{LightKind, Scene};
-use obscura::settings::{Settings, Show, Technique};
+use obscura::settings::{Culling, Settings, Show, Technique};
 use obscura::truth::World;
 
 const SIZE: [u32; 2] = [160, 90];
@@ -381,4 +381,26 @@ fn beams_shadows_end_fifty_metres_from_the_light() {
     let shadowed = pixels.iter().filter(|(_, count)| *count > 0).count();
     let lost = pixels.iter().filter(|(found, count)| *count > 0 && *found == 0).count();
     assert!(shadowed > 100 && lost * 2 > shadowed, "{lost} of {shadowed} lost");
+}
+
+#[test]
+fn merged_volumes_are_as_many_triangles_in_fewer_draws() {
+    let places: Vec<_> = (0..9).map(|at| (f64::from(at % 3) * 3.0 - 3.0, 1.0, f64::from(at / 3) * -3.0)).collect();
+    let mut build = cubes_over_floor(&places, 0.5);
+    build.point_light(DVec3::new(1.0, 8.0, 2.0));
+    let settings = seen_from(DVec3::new(0.0, 3.0, 7.0), DVec3::ZERO, SIZE);
+    let mut stage = Stage::new();
+    stage.set_scene(&build.0);
+    let mut drawn = |caster_scissors| {
+        let culling = Culling { caster_scissors, ..settings.culling };
+        let settings = Settings { culling, technique: Technique::ZFail, show: Show::Stencil, ..settings.clone() };
+        let stats = stage.shoot(&settings, &build.0).stats;
+        (stats.draws, stats.triangles, stats.volume_triangles, stage.stencil())
+    };
+    let (merged, apart) = (drawn(false), drawn(true));
+    // A cube's sides are 6 edges or fewer, 2 triangles each, and its caps.
+    assert!(merged.2 >= 9 * 12, "{} triangles of volumes", merged.2);
+    assert_eq!((merged.1, merged.2), (apart.1, apart.2));
+    assert!(merged.0 + 8 <= apart.0, "{} draws and {}", merged.0, apart.0);
+    assert!(merged.3 == apart.3, "the same stencil");
 }

@@ -83,3 +83,47 @@ pub fn mark(light: usize, solid: Enclosure, budget: BitBudget, scissor: [u32; 4]
     };
     Step::drawing(format!("light {light}: mark its bounds"), why, draw)
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+
+    use super::*;
+
+    fn camera() -> Camera {
+        Camera::look_at(DVec3::new(0.0, 1.0, 9.0), DVec3::ZERO, 1.0, 1.5, 0.1).unwrap()
+    }
+
+    #[test]
+    fn a_spot_is_bounded_by_no_less_than_its_cone_where_only_its_light_counts() {
+        let camera = camera();
+        for outer in [0.2_f32, 0.7, 1.2] {
+            let spot = PosedLight {
+                kind: LightKind::Spot { inner: 0.1, outer },
+                position: DVec3::new(1.0, 2.0, -3.0),
+                direction: DVec3::NEG_Y,
+                range: 6.0,
+                ..PosedLight::default()
+            };
+            let by = |bounds, interest| enclosure(&spot, bounds, interest, &camera);
+            for bounds in [LightBounds::Tight, LightBounds::Cone] {
+                let Some(Enclosure::Cone { apex, axis, outer: solid, reach }) = by(bounds, Interest::Lit) else { panic!() };
+                assert!(solid > f64::from(outer) && solid < f64::from(outer) + 0.01, "{solid} for {outer}");
+                assert_eq!(axis, spot.direction);
+                let before = (spot.position - apex).dot(axis);
+                assert!(before > 0.0 && reach - before > spot.range, "it begins before the lamp and ends beyond the range");
+            }
+            // What lies in range beside the cone counts too.
+            let Some(Enclosure::Ball { center, radius }) = by(LightBounds::Tight, Interest::InRange) else { panic!() };
+            assert!(center == spot.position && radius > spot.range && radius < spot.range * 1.01);
+            assert_eq!(by(LightBounds::Cone, Interest::InRange), None);
+            let Some(Enclosure::Box { radius, .. }) = by(LightBounds::Box, Interest::Lit) else { panic!() };
+            assert!(radius > spot.range);
+            assert_eq!(by(LightBounds::None, Interest::Lit), None);
+            assert_eq!(by(LightBounds::Tight, Interest::InView), None);
+            assert_eq!(enclosure(&spot, LightBounds::Tight, Interest::Lit, &Camera { far: Some(50.0), ..camera }), None);
+            let endless = PosedLight { range: f64::INFINITY, ..spot };
+            assert_eq!(enclosure(&endless, LightBounds::Tight, Interest::Lit, &camera), None);
+        }
+    }
+}
