@@ -14,7 +14,7 @@ use obscura::frame::state::{Cull, Depth, NearPlane};
 use obscura::frame::stencil::{StencilOp, StencilState};
 use obscura::frame::validate::validate;
 use obscura::frame::{Action, Capabilities, Draw, DrawSet, FramePlan, Method, Program};
-use obscura::scene::{AlphaMode, LightKind, Material, Scene};
+use obscura::scene::{AlphaMode, LightKind, Material, Scene, stock};
 use obscura::settings::{AreaMode, CameraChoice, LightEdit, Settings, Show, Technique};
 
 /// Two lights, one with a range; a solid, a mirrored solid, a sheet, a masked and a blended one.
@@ -73,6 +73,14 @@ fn each_show_plans_as_written() {
         let settings = Settings { show, size: [320, 180], ..Settings::default() };
         assert_text(&format!("show-{}", show.name()), &plan(&scene, &settings));
     }
+}
+
+#[test]
+fn three_bounces_of_the_barbershop_plan_as_written() {
+    let scene = stock::build("barbershop").unwrap().unwrap();
+    let mut settings = Settings { technique: Technique::ZFail, size: [320, 180], ..Settings::default() };
+    settings.mirrors.bounces = 3;
+    assert_text("barbershop-3-bounces", &plan(&scene, &settings));
 }
 
 /// With depth bounds: the second light has an end.

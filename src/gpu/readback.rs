@@ -55,6 +55,19 @@ pub fn stencil(context: &Context, renderer: &Renderer) -> Result<Vec<u8>, GpuErr
     read(context, &targets.depth_stencil_texture, wgpu::TextureAspect::StencilOnly, 1, targets.shape.size)
 }
 
+/// Depth as the last frame left it, reverse-Z, rows from the top; frames of one sample only.
+///
+/// # Errors
+/// No frame yet, several samples, a device without float depth, or one that does not answer.
+pub fn depth(context: &Context, renderer: &Renderer) -> Result<Vec<f32>, GpuError> {
+    let targets = renderer.targets().ok_or_else(|| GpuError::Device("nothing was drawn yet".into()))?;
+    if targets.shape.samples != 1 || !context.capabilities().float_depth {
+        return Err(GpuError::Device("this depth cannot be read: several samples, or no floats".into()));
+    }
+    let bytes = read(context, &targets.depth_stencil_texture, wgpu::TextureAspect::DepthOnly, 4, targets.shape.size)?;
+    Ok(bytes.as_chunks::<4>().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect())
+}
+
 /// What the last frame that counted beyond the stencil counted, rows from the top; frames of one
 /// sample only.
 ///

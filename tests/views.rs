@@ -1,0 +1,181 @@
+//! Views by way of mirrors: what the plan says of them, and what they leave behind.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails may panic")]
+
+mod common;
+
+use common::Stage;
+use glam::DMat4;
+use obscura::director;
+use obscura::frame::state::Winding;
+use obscura::frame::stencil::{BitBudget, StencilState};
+use obscura::frame::validate::validate;
+use obscura::frame::{Action, Capabilities, Draw, FramePlan, identity_color};
+use obscura::geometry::planar::reflection;
+use obscura::gpu::readback;
+use obscura::scene::{Scene, stock};
+use obscura::settings::{LastBounce, MirrorMode, Settings, Show, Technique};
+
+const SIZE: [u32; 2] = [320, 180];
+
+const ROOMS: [&str; 6] = ["gallery", "barbershop", "corridor", "terraces", "figure3", "kaleidoscope"];
+
+fn room(name: &str) -> Scene {
+    stock::build(name).unwrap().unwrap()
+}
+
+fn settings(bounces: u32) -> Settings {
+    let mut settings = Settings { technique: Technique::ZFail, size: SIZE, ..Settings::default() };
+    settings.mirrors.bounces = bounces;
+    settings
+}
+
+fn plan(scene: &Scene, settings: &Settings) -> FramePlan {
+    director::stage(settings, scene, &Capabilities::complete()).unwrap().1
+}
+
+#[test]
+fn a_reflected_camera_sees_the_reflected_world() {
+    let planned = plan(&room("barbershop"), &settings(3));
+    for view in &planned.views[1..] {
+        let window = view.through.as_ref().unwrap();
+        let before = planned.views[window.parent].camera.clip_from_world();
+        let mirrored = before * DMat4::from(reflection(window.plane));
+        let error = (view.camera.clip_from_world() - mirrored).abs();
+        assert!(error.to_cols_array().iter().all(|error| *error < 1e-9), "{error}");
+        let near = view.camera.near_rectangle().map(|corner| mirrored * corner.extend(1.0));
+        let corners = near.map(|corner| (corner / corner.w).truncate().truncate());
+        let expected = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        assert!(corners.iter().zip(expected).all(|(at, expected)| at.distance(expected.into()) < 1e-6), "{corners:?}");
+        assert_eq!(view.winding, if window.path.len() % 2 == 1 { Winding::Cw } else { Winding::Ccw });
+    }
+}
+
+#[test]
+fn levels_differ_from_their_neighbours_in_one_bit() {
+    for deepest in 1..=8 {
+        let budget = BitBudget::default().with_mirrors(deepest);
+        let levels: Vec<u8> = (0..=deepest).map(|mirrors| budget.level(mirrors)).collect();
+        for (index, level) in levels.iter().enumerate() {
+            assert_eq!(level & !budget.mirror_mask, 0);
+            assert!(!levels[..index].contains(level), "{levels:?}");
+        }
+        assert!(levels.windows(2).all(|pair| (pair[0] ^ pair[1]).is_power_of_two()), "{levels:?}");
+        assert_eq!(budget.count_mask, !budget.mirror_mask);
+        assert_eq!(budget.mirror_mask.count_ones(), [1, 2, 2, 3, 3, 3, 3, 4][deepest as usize - 1]);
+    }
+}
+
+#[test]
+fn no_mirror_is_seen_in_itself_and_views_are_far_fewer_than_the_worst_case() {
+    for name in ROOMS {
+        let planned = plan(&room(name), &settings(4));
+        assert!(planned.views.len() > 1, "{name}: its mirrors show");
+        for view in &planned.views {
+            assert!(view.path().windows(2).all(|pair| pair[0] != pair[1]), "{name}: {:?}", view.path());
+            assert!(view.path().len() <= 4);
+        }
+        let (drawn, worst) = (planned.views.len() as u64, planned.reflections.worst_case);
+        assert!(drawn <= worst, "{name}: {drawn} of {worst}");
+        if name == "kaleidoscope" {
+            assert!(drawn * 5 <= worst, "{drawn} of {worst}");
+        }
+    }
+}
+
+/// Drawn with and without reflections: what a frame leaves in depth is the same to the last bit, no pixel stays
+/// tagged, and outside the mirrors count and colour are the same too.
+#[test]
+fn mirrors_leave_depth_and_stencil_as_they_were() {
+    let mut stage = Stage::new();
+    let mut reflected = 0;
+    for name in ROOMS {
+        let scene = room(name);
+        stage.set_scene(&scene);
+        let seen = stage.shoot(&Settings { show: Show::Surfaces, ..settings(2) }, &scene);
+        let instances = scene.instances().count();
+        let own: Vec<[u8; 3]> = (1..=instances).map(|number| identity_color(u32::try_from(number).unwrap())).collect();
+        let is_own: Vec<bool> = seen.image.pixels().map(|pixel| own.contains(&[pixel[0], pixel[1], pixel[2]])).collect();
+
+        let with = stage.shoot(&settings(2), &scene);
+        let (depth, stencil) = (readback::depth(&stage.context, &stage.renderer).unwrap(), stage.stencil());
+        let mut off = settings(2);
+        off.mirrors.mode = MirrorMode::Off;
+        let without = stage.shoot(&off, &scene);
+        let (depth_off, stencil_off) = (readback::depth(&stage.context, &stage.renderer).unwrap(), stage.stencil());
+
+        assert!(depth.iter().zip(&depth_off).all(|(a, b)| a.to_bits() == b.to_bits()), "{name}: depth");
+        let budget = with.plan.budget;
+        assert!(stencil.iter().all(|value| value & budget.mirror_mask == 0), "{name}: a pixel stays tagged");
+        for (at, is_own) in is_own.iter().enumerate() {
+            reflected += usize::from(!is_own);
+            if *is_own {
+                let mask = budget.count_mask;
+                assert_eq!(stencil[at] & mask, stencil_off[at] & mask, "{name}: the count at {at}");
+                let colors = [&with.image, &without.image].map(|image| image.as_raw()[at * 4..at * 4 + 4].to_vec());
+                let apart = colors[0].iter().zip(&colors[1]).any(|(a, b)| a.abs_diff(*b) > 1);
+                assert!(!apart, "{name}: {colors:?} at {at}");
+            }
+        }
+    }
+    assert!(reflected > 20_000, "{reflected} pixels in mirrors");
+}
+
+/// In a mirror with nothing before it, what is seen by way of two is what a brighter or paler mirror shows of it.
+#[test]
+fn what_lies_past_the_last_bounce_is_grey_or_fades() {
+    let mut stage = Stage::new();
+    let scene = room("barbershop");
+    stage.set_scene(&scene);
+    let picture = |stage: &mut Stage, bounces, last| {
+        let mut settings = settings(bounces);
+        settings.mirrors.last = last;
+        stage.shoot(&settings, &scene).image
+    };
+    let one = picture(&mut stage, 1, LastBounce::Grey);
+    let two = picture(&mut stage, 2, LastBounce::Grey);
+    assert!(one != two, "the second mirror is grey in the first");
+    assert!(picture(&mut stage, 1, LastBounce::Fade) == one, "the first bounce does not fade");
+    let faded = picture(&mut stage, 2, LastBounce::Fade);
+    assert!(faded != two, "the second does");
+}
+
+fn draw_of<'a>(plan: &'a mut FramePlan, label: &str) -> &'a mut Draw {
+    let found = plan.steps.iter_mut().find(|step| step.label.contains(label));
+    match &mut found.unwrap_or_else(|| panic!("no step {label}")).action {
+        Action::Draw(draw) => draw,
+        Action::Clear(_) => panic!("{label} clears"),
+    }
+}
+
+#[test]
+fn validation_finds_faults_between_views() {
+    let good = plan(&room("barbershop"), &settings(2));
+    assert_eq!(validate(&good), Ok(()));
+    let fault = |change: &dyn Fn(&mut FramePlan)| {
+        let mut plan = good.clone();
+        change(&mut plan);
+        validate(&plan).unwrap_err().what
+    };
+    let without = |label: &'static str| {
+        move |plan: &mut FramePlan| {
+            let at = plan.steps.iter().position(|step| step.label.contains(label)).unwrap();
+            plan.steps.remove(at);
+        }
+    };
+    assert!(fault(&without("tag eye >")).contains("not tagged"));
+    assert!(fault(&without("untag eye >")).contains("not"));
+    let in_view = |plan: &FramePlan| plan.steps.iter().position(|step| step.view == 1 && step.label.contains("ambient")).unwrap();
+    let beyond = fault(&|plan| {
+        let at = in_view(plan);
+        if let Action::Draw(draw) = &mut plan.steps[at].action {
+            draw.state.stencil = StencilState::IGNORE;
+            draw.stencil_reference = 0;
+        }
+    });
+    assert!(beyond.contains("beyond its mirror"), "{beyond}");
+    assert!(fault(&|plan| draw_of(plan, "tag eye >").stencil_reference ^= 0x80).contains("bits"));
+    assert!(fault(&|plan| draw_of(plan, "untag eye >").state.depth.write = false).contains("depth"));
+    assert!(fault(&|plan| plan.views[1].winding = Winding::Ccw).contains("winding"));
+    let unreset = |plan: &mut FramePlan| plan.steps.retain(|step| step.view != 1 || !step.label.contains("reset"));
+    assert!(fault(&unreset).contains("another view left"));
+}
