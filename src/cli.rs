@@ -14,6 +14,7 @@ mod culling;
 mod input;
 mod light_edit;
 mod lighting;
+mod mirrors;
 
 pub use command_line::render_command;
 pub use input::{InputError, MAX_COORDINATE, MAX_EXPOSURE, check, check_against};
@@ -405,6 +406,8 @@ struct PictureArguments {
     counting: counting::CountingArguments,
     #[command(flatten)]
     culling: culling::CullingArguments,
+    #[command(flatten)]
+    mirrors: mirrors::MirrorArguments,
     /// The graphics adapter: part of its name
     #[arg(long, value_name = "SUBSTRING", allow_hyphen_values = true)]
     adapter: Option<String>,
@@ -428,6 +431,7 @@ impl PictureArguments {
                 lighting: settings.lighting,
                 counting: settings.counting,
                 culling: settings.culling,
+                mirrors: settings.mirrors.of_another_scene(),
                 adapter: settings.adapter,
                 shaders: settings.shaders,
                 ..Settings::default()
@@ -469,6 +473,7 @@ impl PictureArguments {
         self.lighting.apply(&mut settings.lighting)?;
         self.counting.apply(&mut settings.counting)?;
         self.culling.apply(&mut settings.culling)?;
+        self.mirrors.apply(&mut settings.mirrors)?;
         settings.adapter = self.adapter.clone().or(settings.adapter);
         settings.shaders = self.shaders.clone().or(settings.shaders);
         check(&settings)?;

@@ -157,6 +157,38 @@ fn json_tells_the_plan_and_the_time() {
 }
 
 #[test]
+fn json_tells_mirrors_and_the_views_in_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let report = |arguments: &[&str]| -> Value {
+        let json = good(folder.path(), &[&["render", "--out", "a.png", "--json"], &SMALL[..], arguments].concat());
+        serde_json::from_str::<Value>(&json).unwrap()["reflections"].clone()
+    };
+    let views = |reflections: &Value| reflections["views"].as_array().unwrap().len() as u64;
+    let deep = report(&["barbershop", "--bounces", "3"]);
+    assert_eq!((&deep["mode"], &deep["bounces"]), (&Value::from("recursive"), &Value::from(3)));
+    let mirrors = deep["mirrors"].as_array().unwrap();
+    assert_eq!(mirrors.len(), 2, "{deep}");
+    assert!(mirrors.iter().all(|mirror| mirror["reflectivity"].as_f64().is_some_and(|share| share > 0.5)));
+    assert!(views(&deep) > 2 && views(&deep) <= deep["worst_case"].as_u64().unwrap(), "{deep}");
+    assert_eq!(deep["worst_case"], 7, "1 + 2 (1 + 1 + 1)");
+    let one = report(&["barbershop", "--mirrors", "stencil"]);
+    assert!(views(&one) < views(&deep) && one["worst_case"] == 3, "{one}");
+    let off = report(&["barbershop", "--mirrors", "off"]);
+    assert!(views(&off) == 1 && off["mirrors"].as_array().unwrap().is_empty() && off["worst_case"] == 1, "{off}");
+    let place = |mirror: &Value| format!("{}:{}", mirror["node"], mirror["primitive"]);
+    let none = format!("{}=off", place(&mirrors[0]));
+    let other = report(&["barbershop", "--mirror", &none]);
+    assert_eq!(other["mirrors"].as_array().unwrap().iter().map(place).collect::<Vec<_>>(), [place(&mirrors[1])]);
+    // A cube is no plane; the picture is drawn without it being a mirror.
+    let scene = obscura::scene::stock::build("cubes").unwrap().unwrap();
+    let (cube, ..) = scene.instances().find(|(_, node, _)| node.casts_shadow).unwrap();
+    let refused = report(&["cubes", "--mirror", &format!("{cube}=on")]);
+    assert!(refused["mirrors"].as_array().unwrap().is_empty());
+    let [why] = &refused["refused"].as_array().unwrap()[..] else { panic!("{refused}") };
+    assert!(why.as_str().unwrap().contains("off one plane"), "{why}");
+}
+
+#[test]
 fn every_technique_and_show_draws() {
     let folder = tempfile::tempdir().unwrap();
     let mut pictures = Vec::new();
@@ -218,6 +250,12 @@ fn bad_input_is_one_line_and_leaves_nothing() {
         (&["cubes", "--time", "-0.5"], "time"),
         (&["cubes", "--time", "nan"], "time"),
         (&["cubes", "--exposure", "inf"], "exposure"),
+        (&["barbershop", "--mirrors", "magic"], "there are: off, stencil, recursive"),
+        (&["barbershop", "--bounces", "0"], "1 to 8"),
+        (&["barbershop", "--bounces", "9"], "1 to 8"),
+        (&["barbershop", "--last-bounce", "magic"], "there are: grey, fade"),
+        (&["barbershop", "--mirror", "9999=on"], "node 9999"),
+        (&["barbershop", "--mirror", "0:99=off"], "primitive 99"),
         (&["cubes", "--light-edit", "0:position=0;nan;0"], "position"),
         (&["cubes", "--adapter", "no such adapter"], "no such adapter"),
         (&["cubes", "--shaders", "no-such-folder"], "no-such-folder"),
@@ -276,6 +314,9 @@ fn wrong_usage_is_exit_code_2_and_says_what_is_wrong_first() {
         &["render", "cubes", "--out", "a.png", "--size", "large"],
         &["render", "cubes", "--out", "a.png", "--eye", "1,2,3"],
         &["render", "cubes", "--out", "a.png", "--fov", "wide"],
+        &["render", "cubes", "--out", "a.png", "--mirror", "3"],
+        &["render", "cubes", "--out", "a.png", "--mirror", "floor=on"],
+        &["render", "cubes", "--out", "a.png", "--mirror", "1:0=perhaps"],
         &["cubes", "--vsync", "perhaps"],
         &["cubes", "teapots"],
         &["info"],

@@ -225,8 +225,8 @@ fn extras_mark_mirrors_and_say_how_they_reflect() {
     let scene = import(&triangle_of(json!({"doubleSided": true, "extras": look})));
     assert_eq!(scene.mirrors[0].look, Reflective { reflectivity: 0.25, tint: Vec3::new(1.0, 0.5, 0.0) });
     let report = doctor::report(&scene);
-    assert_eq!(report.mirrors, ["node 0 (reflectivity 0.25, tint 1 0.5 0, both sides)"]);
-    assert!(report.to_string().contains("mirrors     node 0 (reflectivity"), "{report}");
+    assert_eq!(report.mirrors, ["0:0 node 0 (reflectivity 0.25, tint 1 0.5 0, both sides)"]);
+    assert!(report.to_string().contains("mirrors     0:0 node 0 (reflectivity"), "{report}");
 
     for none in [json!({"mirror": false, "reflectivity": 9}), json!({"reflectivity": 1}), json!(7)] {
         let scene = import(&triangle_of(json!({"extras": none})));

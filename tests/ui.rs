@@ -16,7 +16,9 @@ use obscura::failures;
 use obscura::frame::{Camera, Capabilities, FramePlan};
 use obscura::scene::stock::StockScene;
 use obscura::scene::{self, Light, LightKind, Node, Pose, PosedLight, Scene};
-use obscura::settings::{CameraChoice, Failure, LightEdit, SceneChoice, Settings, Show, Technique};
+use obscura::settings::{
+    CameraChoice, Failure, LastBounce, LightEdit, MirrorMode, MirrorPlace, Mirrors, SceneChoice, Settings, Show, Technique,
+};
 use obscura::techniques::TABLE;
 use obscura::techniques::cases::{self, Class};
 use obscura::truth::{Comparison, Wrong, WrongPixel};
@@ -198,6 +200,126 @@ fn the_table_of_casters_says_what_the_report_says() {
         let found = labels(&harness);
         assert!(found.windows(expected.len()).any(|part| *part == expected), "light {light}: {found:?} without {expected:?}");
     }
+}
+
+/// A stock scene, planned.
+fn reflecting(name: &str) -> Bench {
+    let mut bench = Bench::new();
+    bench.scene = scene::stock::build(name).unwrap().unwrap();
+    bench.settings = Settings { size: [320, 180], ..Settings::default() };
+    let (pose, plan) = obscura::director::stage(&bench.settings, &bench.scene, &Capabilities::complete()).unwrap();
+    (bench.pose, bench.plan) = (pose, Some(plan));
+    bench
+}
+
+#[test]
+fn mirrors_are_chosen_and_told() {
+    let mut harness = open(reflecting("barbershop"));
+    let default = Mirrors::default();
+    let told = |harness: &Harness<'_, Bench>| labels(harness).into_iter().find(|words| words.contains("views drawn")).unwrap();
+    let plan = harness.state().plan.clone().unwrap();
+    assert!(plan.views.len() > 3);
+    let expected = format!("{} views drawn, of 9 at worst for 2 mirrors and 4 bounces (Kilgard).", plan.views.len());
+    assert_eq!(told(&harness), expected);
+    let bits = labels(&harness).into_iter().find(|words| words.starts_with("In this frame: ")).unwrap();
+    let mirror_bits = plan.budget.mirror_mask.count_ones();
+    assert_eq!(bits, format!("In this frame: 7-{} mirror level, {}-0 shadow count.", 8 - mirror_bits, 7 - mirror_bits));
+    let cells = labels(&harness).into_iter().filter(|words| words == " M ").count() as u32;
+    assert_eq!(cells, mirror_bits);
+
+    let mirrors = |harness: &Harness<'_, Bench>| settings(harness).mirrors;
+    click(&mut harness, "One bounce");
+    assert_eq!(mirrors(&harness), Mirrors { mode: MirrorMode::Stencil, ..default.clone() });
+    click(&mut harness, "No mirrors");
+    assert_eq!(mirrors(&harness), Mirrors { mode: MirrorMode::Off, ..default.clone() });
+    click(&mut harness, "Mirrors in mirrors");
+    click(&mut harness, "Fade");
+    assert_eq!(mirrors(&harness), Mirrors { last: LastBounce::Fade, ..default.clone() });
+    click(&mut harness, "Grey");
+    harness.get_by_label_contains("Fresnel").click();
+    harness.run_steps(3);
+    assert_eq!(mirrors(&harness), Mirrors { fresnel: true, ..default.clone() });
+    harness.get_by_label_contains("Fresnel").click();
+    harness.run_steps(3);
+
+    // Each mirror of the scene has its switch.
+    for mirror in harness.state().scene.mirrors.clone() {
+        harness.get_by_role_and_label(Role::CheckBox, &mirror.name).click();
+        harness.run_steps(3);
+        let place = MirrorPlace { node: mirror.node, primitive: mirror.primitive };
+        assert_eq!(mirrors(&harness).edits, [(place, false)].into());
+        harness.get_by_role_and_label(Role::CheckBox, &mirror.name).click();
+        harness.run_steps(3);
+        assert_eq!(mirrors(&harness), default, "{}", mirror.name);
+    }
+    assert_eq!(harness.state().actions, []);
+}
+
+/// Clicks where a point of the world is on the picture.
+fn click_at(harness: &mut Harness<'_, Bench>, point: DVec3) {
+    let bench = harness.state();
+    let at = project(&camera(bench), bench.picture, point).unwrap();
+    harness.hover_at(at);
+    harness.run_steps(1);
+    harness.drag_at(at);
+    harness.run_steps(1);
+    harness.drop_at(at);
+    harness.run_steps(3);
+}
+
+#[test]
+fn a_click_makes_a_mirror_of_what_is_flat_and_takes_it_away() {
+    let mut harness = open(reflecting("barbershop"));
+    let edits = |harness: &Harness<'_, Bench>| settings(harness).mirrors.edits;
+    let said = |harness: &mut Harness<'_, Bench>| -> (Tone, String) {
+        let actions = std::mem::take(&mut harness.state_mut().actions);
+        let [Action::Tell(Notice { topic: Topic::Mirrors, tone, words })] = &actions[..] else { panic!("{actions:?}") };
+        (*tone, words.clone())
+    };
+    let bench = harness.state();
+    let eye = camera(bench);
+    let (scene, pose) = (&bench.scene, &bench.pose);
+    let seen = |point: DVec3| obscura::scene::pick::surface_at(scene, pose, eye.eye, point - eye.eye, 1e-3);
+    // Places on a mirror, on something flat and on something that is not, each seen by the eye.
+    let (mut mirror, mut flat, mut solid) = (None, None, None);
+    for step in 0..400 {
+        let pixel = [step % 20 * 16 + 8, step / 20 * 9 + 4];
+        let corners = eye.near_rectangle_of([pixel[0], pixel[1], 1, 1], [320, 180]);
+        let point = eye.eye + (corners.iter().sum::<DVec3>() / 4.0 - eye.eye) * 3.0;
+        let Some(place) = seen(point) else { continue };
+        let marked = scene.mirrors.iter().any(|mirror| mirror.node == place.node && mirror.primitive == place.primitive);
+        let kind = match scene.can_mirror(place) {
+            _ if marked => &mut mirror,
+            Ok(()) => &mut flat,
+            Err(_) => &mut solid,
+        };
+        kind.get_or_insert((point, place));
+    }
+    let name = |place: MirrorPlace| scene.nodes[place.node].name.clone();
+    let [mirror, flat, solid] =
+        [mirror, flat, solid].map(|found| found.map(|(point, place)| (point, place, name(place))).unwrap());
+    let before = settings(&harness);
+
+    click_at(&mut harness, flat.0);
+    assert_eq!(settings(&harness).mirrors, before.mirrors, "a click alone makes no mirror");
+    press(&mut harness, Key::X);
+    click_at(&mut harness, flat.0);
+    assert_eq!(edits(&harness), [(flat.1, true)].into());
+    assert_eq!(said(&mut harness), (Tone::Good, format!("{} is a mirror.", flat.2)));
+    click_at(&mut harness, mirror.0);
+    assert_eq!(edits(&harness), [(flat.1, true), (mirror.1, false)].into());
+    assert_eq!(said(&mut harness), (Tone::Good, format!("{} is no mirror any more.", mirror.2)));
+    click_at(&mut harness, solid.0);
+    let (tone, words) = said(&mut harness);
+    assert!(tone == Tone::Warning && words.starts_with(&format!("{} cannot be a mirror: ", solid.2)), "{words}");
+    click_at(&mut harness, flat.0);
+    click_at(&mut harness, mirror.0);
+    assert_eq!(settings(&harness), before, "twice, and all is as it was");
+    harness.state_mut().actions.clear();
+    press(&mut harness, Key::Escape);
+    click_at(&mut harness, flat.0);
+    assert_eq!(settings(&harness).mirrors, before.mirrors);
+    assert_eq!(harness.state().actions, []);
 }
 
 #[test]

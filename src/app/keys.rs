@@ -31,6 +31,8 @@ pub enum Command {
     Faster(i32),
     /// 1 or 4 samples a pixel.
     ToggleSamples,
+    /// Clicks on the picture make mirrors, or do not any more.
+    MakeMirrors,
     /// Light icons over the picture.
     ToggleIcons,
     /// The side panel.
@@ -143,6 +145,12 @@ pub static TABLE: &[Row] = &[
     row(Group::Picture, "L", "next light for stencil, shadow and volumes", &[press(Key::L, Command::NextLight)]),
     row(Group::Picture, "N", "next stock scene", &[press(Key::N, Command::NextScene)]),
     row(Group::Picture, "M", "1 or 4 samples a pixel", &[press(Key::M, Command::ToggleSamples)]),
+    row(
+        Group::Picture,
+        "X",
+        "clicks make mirrors: a flat surface becomes one, a mirror none; again to end",
+        &[press(Key::X, Command::MakeMirrors)],
+    ),
     row(Group::Camera, "drag", "turn about the target (orbit), or look around (fly)", &[]),
     row(Group::Camera, "right drag", "move sideways with the target", &[]),
     row(Group::Camera, "wheel", "nearer, farther (orbit); flying speed (fly)", &[]),
@@ -178,7 +186,7 @@ pub static TABLE: &[Row] = &[
     ),
     row(Group::Window, "Ctrl+C", "copy the command that draws this picture", &[ctrl(Key::C, Command::CopyCommand)]),
     row(Group::Window, "Ctrl+O", "type or paste the path of a file to open", &[ctrl(Key::O, Command::OpenPath)]),
-    row(Group::Window, "Esc", "close the help, leave a field", &[press(Key::Escape, Command::Close)]),
+    row(Group::Window, "Esc", "close the help, leave a field, make no more mirrors", &[press(Key::Escape, Command::Close)]),
     row(Group::Window, "Ctrl+Q", "quit", &[ctrl(Key::Q, Command::Quit)]),
 ];
 

@@ -294,6 +294,7 @@ impl Session {
         match action {
             Action::ForgetRecent => self.preferences.recent.clear(),
             Action::Dismiss(topic) => self.dismiss(topic),
+            Action::Tell(notice) => self.notice(notice.topic, notice.tone, notice.words),
             other => return Some(other),
         }
         None

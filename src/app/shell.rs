@@ -369,7 +369,7 @@ impl Shell {
                 }
             }
             Action::Quit => event_loop.exit(),
-            Action::ForgetRecent | Action::Dismiss(_) => {}
+            Action::ForgetRecent | Action::Dismiss(_) | Action::Tell(_) => {}
         }
         self.pace.want(Instant::now());
     }

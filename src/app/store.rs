@@ -107,7 +107,7 @@ impl Stored {
         settings.failure = None;
         // Each part is judged by itself, as the command line's are: one that was refused would keep the
         // program from starting until somebody found the file.
-        let parts: [fn(&mut Settings, Settings); 7] = [
+        let parts: [fn(&mut Settings, Settings); 8] = [
             |to, from| to.samples = from.samples,
             |to, from| to.fov = from.fov,
             |to, from| to.exposure = from.exposure,
@@ -115,6 +115,7 @@ impl Stored {
             |to, from| to.lights = from.lights,
             |to, from| to.lighting = from.lighting,
             |to, from| to.counting = from.counting,
+            |to, from| to.mirrors = from.mirrors,
         ];
         for part in parts {
             let mut alone = Settings::default();
@@ -145,6 +146,7 @@ pub fn turn_to(settings: &mut Settings, scene: SceneChoice) {
     settings.light = defaults.light;
     settings.lights = defaults.lights;
     settings.exposure = defaults.exposure;
+    settings.mirrors.edits = defaults.mirrors.edits;
 }
 
 /// The file, and what is to be written to it.
@@ -246,7 +248,7 @@ fn write(path: &Path, stored: &Stored) -> std::io::Result<()> {
 mod tests {
     #![allow(clippy::unwrap_used)] // a failed unwrap is a failed test
     use super::*;
-    use crate::settings::{CameraChoice, Failure, LightEdit, Technique};
+    use crate::settings::{CameraChoice, Failure, LightEdit, MirrorPlace, Mirrors, Technique};
     use glam::DVec3;
 
     fn store(folder: &Path) -> Store {
@@ -328,6 +330,8 @@ mod tests {
             r#""camera": {"free": {"eye": [1e12, 0, 0], "target": [0, 0, 0]}}"#,
             r#""exposure": -40"#,
             r#""fov": 0"#,
+            r#""mirrors": {"bounces": 0}"#,
+            r#""mirrors": {"bounces": 4000000000, "edits": [[{"node": 7, "primitive": 0}, true]]}"#,
             r#""lights": {"0": {"range": -1}}"#,
             r#""lights": {"0": {"position": [1e300, 0, 0]}}"#,
         ] {
@@ -342,11 +346,14 @@ mod tests {
     fn another_scene_starts_afresh_and_keeps_how_it_is_drawn() {
         let mut settings = Settings { light: 3, fov: Some(20.0), technique: Technique::ZPass, samples: 4, ..Settings::default() };
         settings.lights.insert(0, LightEdit::default());
+        settings.mirrors.bounces = 2;
+        settings.mirrors.edits.insert(MirrorPlace { node: 1, primitive: 0 }, true);
         turn_to(&mut settings, SceneChoice::Stock("cubes".into()));
         let expected = Settings {
             scene: SceneChoice::Stock("cubes".into()),
             technique: Technique::ZPass,
             samples: 4,
+            mirrors: Mirrors { bounces: 2, ..Mirrors::default() },
             ..Settings::default()
         };
         assert_eq!(settings, expected);

@@ -2,7 +2,10 @@
 
 use std::borrow::Cow;
 
-use super::{counting as counting_options, culling as culling_options, light_edit, lighting as lighting_options, needs_dot};
+use super::{
+    counting as counting_options, culling as culling_options, light_edit, lighting as lighting_options,
+    mirrors as mirror_options, needs_dot,
+};
 use crate::scene::AnimationChoice;
 use crate::settings::{CameraChoice, SceneChoice, Settings};
 
@@ -37,7 +40,7 @@ pub fn render_command(settings: &Settings) -> String {
         culling,
         adapter,
         shaders,
-        mirrors: _,
+        mirrors,
     } = settings;
     let default = Settings::default();
     let mut line = Line::default();
@@ -107,6 +110,7 @@ pub fn render_command(settings: &Settings) -> String {
     lighting_options::write(lighting, &mut line);
     counting_options::write(counting, &mut line);
     culling_options::write(culling, &mut line);
+    mirror_options::write(mirrors, &mut line);
     if let Some(adapter) = adapter {
         line.option("--adapter", adapter);
     }

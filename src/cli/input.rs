@@ -3,7 +3,7 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::{counting, lighting};
+use super::{counting, lighting, mirrors};
 use crate::scene::{AnimationChoice, LightKind, Scene};
 use crate::settings::{CameraChoice, LightEdit, MAX_SIZE, Settings, SlideChoice};
 
@@ -103,6 +103,14 @@ pub enum InputError {
         /// How many there are.
         count: usize,
     },
+    /// The scene has no such surface.
+    #[error("node {node} of this scene shows no primitive {primitive}")]
+    Surface {
+        /// The node, from 0.
+        node: usize,
+        /// The primitive of its mesh, from 0.
+        primitive: usize,
+    },
 }
 
 fn limit(bound: Option<f64>) -> String {
@@ -146,7 +154,8 @@ pub fn check(settings: &Settings) -> Result<(), InputError> {
     bounded("the exposure", f64::from(settings.exposure), Some(f64::from(MAX_EXPOSURE)))?;
     settings.lights.iter().try_for_each(|(light, edit)| check_light(*light, edit))?;
     counting::check(&settings.counting)?;
-    lighting::check(&settings.lighting)
+    lighting::check(&settings.lighting)?;
+    mirrors::check(&settings.mirrors)
 }
 
 fn check_light(light: usize, edit: &LightEdit) -> Result<(), InputError> {
@@ -190,7 +199,7 @@ fn at_least_zero(what: &str, value: f64) -> Result<(), InputError> {
     Ok(())
 }
 
-/// Says whether `scene` has the lights and animations that `settings` speak of.
+/// Says whether `scene` has the lights, animations and surfaces that `settings` speak of.
 ///
 /// # Errors
 /// The first that is not there.
@@ -218,5 +227,5 @@ pub fn check_against(settings: &Settings, scene: &Scene) -> Result<(), InputErro
     {
         return Err(InputError::Index { kind: "animation", index, count: scene.animations.len() });
     }
-    Ok(())
+    mirrors::check_against(&settings.mirrors, scene)
 }

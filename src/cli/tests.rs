@@ -10,8 +10,8 @@ use proptest::prelude::*;
 use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
 use crate::settings::{
-    Accumulation, AreaMode, Counting, Culling, LightBounds, Lighting, MAX_AREA_SAMPLES, MAX_COUNT_BITS, MAX_FRAMES, Mirrors,
-    Overflow, SlideChoice, Texturing,
+    Accumulation, AreaMode, Counting, Culling, LastBounce, LightBounds, Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES, MAX_COUNT_BITS,
+    MAX_FRAMES, MirrorMode, MirrorPlace, Mirrors, Overflow, SlideChoice, Texturing,
 };
 
 fn command(line: &str) -> Result<Command, InputError> {
@@ -50,6 +50,7 @@ fn every_argument_reaches_its_setting() {
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --area-mode bits --light-sample 3 --accumulate 256 \
          --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on \
+         --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --least-pixels 25 --mirror 12=on --mirror 3:1=off \
          --light-edit 1:on=true --adapter llvm --shaders wgsl",
     );
     let edit = LightEdit {
@@ -91,7 +92,17 @@ fn every_argument_reaches_its_setting() {
         },
         culling: Culling { on: false, light_bounds: LightBounds::Sphere, caster_scissors: true, depth_bounds: true },
         adapter: Some("llvm".into()),
-        mirrors: Mirrors::default(),
+        mirrors: Mirrors {
+            mode: MirrorMode::Stencil,
+            bounces: 7,
+            last: LastBounce::Fade,
+            fresnel: true,
+            least_pixels: 25,
+            edits: BTreeMap::from([
+                (MirrorPlace { node: 12, primitive: 0 }, true),
+                (MirrorPlace { node: 3, primitive: 1 }, false),
+            ]),
+        },
         shaders: Some("wgsl".into()),
     };
     assert_eq!(got, expected);
@@ -365,11 +376,28 @@ fn any_settings() -> impl Strategy<Value = Settings> {
     let culling = (any::<bool>(), prop::sample::select(&LightBounds::ALL[..]), any::<bool>(), any::<bool>()).prop_map(
         |(on, light_bounds, caster_scissors, depth_bounds)| Culling { on, light_bounds, caster_scissors, depth_bounds },
     );
+    let place = (any::<usize>(), any::<usize>()).prop_map(|(node, primitive)| MirrorPlace { node, primitive });
+    let mirrors = (
+        prop::sample::select(&MirrorMode::ALL[..]),
+        1..=MAX_BOUNCES,
+        prop::sample::select(&LastBounce::ALL[..]),
+        any::<bool>(),
+        any::<u32>(),
+        prop::collection::btree_map(place, any::<bool>(), 0..4),
+    )
+        .prop_map(|(mode, bounces, last, fresnel, least_pixels, edits)| Mirrors {
+            mode,
+            bounces,
+            last,
+            fresnel,
+            least_pixels,
+            edits,
+        });
     let rest = (
         prop::collection::btree_map(any::<usize>(), any_edit(), 0..4),
         lighting,
         (1..=MAX_COUNT_BITS, prop::sample::select(&Overflow::ALL[..])).prop_map(|(bits, overflow)| Counting { bits, overflow }),
-        culling,
+        (culling, mirrors),
         prop::option::of(word()),
         prop::option::of(word().prop_filter("a folder", |path| !path.is_empty()).prop_map(PathBuf::from)),
         prop::option::of(prop::sample::select(&Failure::ALL[..])),
@@ -378,7 +406,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         |(
             (scene, floor, technique, show, light, size, samples),
             (camera, fov, far, time, animation, smooth_terminator, exposure),
-            (lights, lighting, counting, culling, adapter, shaders, failure),
+            (lights, lighting, counting, (culling, mirrors), adapter, shaders, failure),
         )| Settings {
             scene,
             floor,
@@ -400,7 +428,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             lighting,
             culling,
             adapter,
-            mirrors: Mirrors::default(),
+            mirrors,
             shaders,
         },
     )

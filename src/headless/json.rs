@@ -9,8 +9,8 @@ use crate::cli::render_command;
 use crate::frame::plan::{Case, Method, Reason};
 use crate::frame::{Camera, Capabilities, FramePlan, Lack};
 use crate::gpu::FrameStats;
-use crate::scene::Scene;
-use crate::settings::{Settings, Show, Technique};
+use crate::scene::{Mirror, Scene};
+use crate::settings::{MirrorMode, Settings, Show, Technique};
 
 /// One picture, for programs.
 #[derive(Debug, Clone, Serialize)]
@@ -53,6 +53,8 @@ pub struct Report {
     pub volumes: Vec<LightReport>,
     /// Caster by caster and light by light, the same.
     pub casters: Vec<CasterReport>,
+    /// Mirrors, and the views drawn for them.
+    pub reflections: ReflectionsReport,
     /// What the GPU was given.
     pub frame: FrameStats,
     /// How long it took.
@@ -110,6 +112,62 @@ pub struct CasterReport {
     pub reason: Reason,
 }
 
+/// Mirrors, and the views drawn for them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReflectionsReport {
+    /// How reflections are drawn.
+    pub mode: MirrorMode,
+    /// How often a ray is reflected at most.
+    pub bounces: u32,
+    /// The mirrors in force, seen or not.
+    pub mirrors: Vec<MirrorReport>,
+    /// What was to be a mirror and is none: why, a line each.
+    pub refused: Vec<String>,
+    /// Views drawn, the eye's own among them: the mirrors on the way to each.
+    pub views: Vec<String>,
+    /// How many there would be if every mirror showed in every other (K section 3).
+    pub worst_case: u64,
+    /// Views that were left out for being too small.
+    pub too_small: usize,
+}
+
+/// One mirror.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MirrorReport {
+    /// The name of its node.
+    pub name: String,
+    /// The scene's node, as `--mirror` has it.
+    pub node: usize,
+    /// Of its mesh.
+    pub primitive: usize,
+    /// How much of what is seen there is the reflection: 0 to 1.
+    pub reflectivity: f32,
+    /// Multiplies the reflection; linear RGB.
+    pub tint: [f32; 3],
+}
+
+impl ReflectionsReport {
+    fn new(settings: &Settings, scene: &Scene, plan: &FramePlan) -> Self {
+        let (mirrors, refused) = scene.mirrors_in_force(&settings.mirrors);
+        let mirrors = mirrors.into_iter().map(|Mirror { name, node, primitive, look, .. }| MirrorReport {
+            name,
+            node,
+            primitive,
+            reflectivity: look.reflectivity,
+            tint: look.tint.to_array(),
+        });
+        Self {
+            mode: settings.mirrors.mode,
+            bounces: settings.mirrors.most_bounces(),
+            mirrors: mirrors.collect(),
+            refused,
+            views: plan.views.iter().map(|view| view.name.clone()).collect(),
+            worst_case: plan.reflections.worst_case.max(1),
+            too_small: plan.reflections.too_small,
+        }
+    }
+}
+
 /// Milliseconds of wall clock. The first frame compiles its pipelines; the second is what a
 /// frame costs.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
@@ -160,6 +218,7 @@ impl Report {
             steps: plan.steps.iter().map(|step| StepReport { label: step.label.clone(), why: step.why.clone() }).collect(),
             volumes: volumes(scene, plan),
             casters: casters(scene, plan),
+            reflections: ReflectionsReport::new(settings, scene, plan),
             frame,
             timings,
         }

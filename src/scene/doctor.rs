@@ -34,7 +34,7 @@ pub struct Report {
     pub textures: Vec<String>,
     /// How many skins bend meshes.
     pub skins: usize,
-    /// Name, and how each reflects.
+    /// Node and primitive, as `--mirror` has them; name, and how each reflects.
     pub mirrors: Vec<String>,
     /// One a mesh.
     pub meshes: Vec<MeshReport>,
@@ -129,7 +129,7 @@ pub fn report(scene: &Scene) -> Report {
         blended_materials: scene.materials.iter().filter(|material| material.alpha == AlphaMode::Blend).count(),
         textures,
         skins: scene.skins.len(),
-        mirrors: scene.mirrors.iter().map(ToString::to_string).collect(),
+        mirrors: scene.mirrors.iter().map(|mirror| format!("{}:{} {mirror}", mirror.node, mirror.primitive)).collect(),
         meshes: meshes.collect(),
         warnings: scene.warnings.clone(),
     }

@@ -148,6 +148,32 @@ impl Scene {
         (mirrors, refused)
     }
 
+    /// Whether a surface can be a mirror.
+    ///
+    /// # Errors
+    /// Why it cannot.
+    pub fn can_mirror(&self, place: MirrorPlace) -> Result<(), Refusal> {
+        Mirror::of(self, place.node, place.primitive, Reflective::default()).map(|_| ())
+    }
+
+    /// Makes a surface a mirror, or a mirror an ordinary surface; says which of the two it is now.
+    ///
+    /// # Errors
+    /// Why it cannot be a mirror: nothing has changed then.
+    pub fn toggle_mirror(&self, settings: &mut Mirrors, place: MirrorPlace) -> Result<bool, Refusal> {
+        let marked = self.mirrors.iter().any(|mirror| mirror.node == place.node && mirror.primitive == place.primitive);
+        let on = !settings.edits.get(&place).copied().unwrap_or(marked);
+        if on && !marked {
+            self.can_mirror(place)?;
+        }
+        if on == marked {
+            settings.edits.remove(&place);
+        } else {
+            settings.edits.insert(place, on);
+        }
+        Ok(on)
+    }
+
     /// Looks for the surfaces that are marked mirrors and fills [`Scene::mirrors`]; says which are none, and
     /// why.
     pub(super) fn find_mirrors(&mut self) -> Vec<String> {

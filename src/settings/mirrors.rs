@@ -49,6 +49,12 @@ impl Default for Mirrors {
 }
 
 impl Mirrors {
+    /// The same without what speaks of one scene's surfaces.
+    #[must_use]
+    pub fn of_another_scene(self) -> Self {
+        Self { edits: BTreeMap::new(), ..self }
+    }
+
     /// How often a ray is reflected at most, by the mode.
     #[must_use]
     pub fn most_bounces(&self) -> u32 {

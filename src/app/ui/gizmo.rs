@@ -49,7 +49,7 @@ pub fn project(camera: &Camera, picture: Rect, point: DVec3) -> Option<Pos2> {
 }
 
 /// The direction from the eye through a point of the picture, its part along `forward` being 1.
-fn ray(camera: &Camera, picture: Rect, at: Pos2) -> DVec3 {
+pub(super) fn ray(camera: &Camera, picture: Rect, at: Pos2) -> DVec3 {
     let offset = (at - picture.center()) / (picture.size() * 0.5);
     let height = (camera.vertical_fov * 0.5).tan();
     let right = camera.forward.cross(camera.up);

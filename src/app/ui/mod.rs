@@ -14,6 +14,7 @@ mod gather;
 mod gizmo;
 mod help;
 mod lights;
+mod mirrors;
 mod numbers;
 mod picture;
 mod scene;
@@ -97,6 +98,8 @@ pub enum Topic {
     Store,
     /// The device.
     Device,
+    /// A surface that was made a mirror, or was to be.
+    Mirrors,
 }
 
 /// How bad it is.
@@ -127,6 +130,8 @@ pub enum Action {
     CopyCommand,
     /// Holds the picture against exact rays.
     Verify,
+    /// Says something to the user.
+    Tell(Notice),
     /// Takes a notice away.
     Dismiss(Topic),
     /// Throws the device away, which then is rebuilt.
@@ -156,6 +161,8 @@ pub struct Panel {
     /// The failure that was chosen last, also while it is off.
     failure: Option<Failure>,
     focus_path: bool,
+    /// Clicks on the picture make mirrors.
+    makes_mirrors: bool,
     selected_light: Option<usize>,
     unfold_light: Option<usize>,
     drag: Option<gizmo::Drag>,
@@ -181,8 +188,10 @@ impl Panel {
             });
         }
         let frame = egui::Frame::NONE;
-        let picture =
-            egui::CentralPanel::no_frame().frame(frame).show(ui, |ui| picture::picture(ui, self, &mut desk, view)).inner;
+        let picture = egui::CentralPanel::no_frame()
+            .frame(frame)
+            .show(ui, |ui| picture::picture(ui, self, &mut desk, view, &mut actions))
+            .inner;
         if !desk.preferences.panel {
             self.floating(ui, &desk, view, picture, &mut actions);
         }
@@ -228,6 +237,7 @@ impl Panel {
         style::section(ui, "Proof", true, |ui| verify::verify(ui, desk, view, actions));
         style::section(ui, "Lights", true, |ui| lights::lights(ui, self, desk, view));
         style::section(ui, "Gathering", true, |ui| gather::gather(ui, desk, view));
+        style::section(ui, "Mirrors", true, |ui| mirrors::mirrors(ui, self, desk, view));
         style::section(ui, "Count", false, |ui| counting::counting(ui, desk, view));
         style::section(ui, "Culling", false, |ui| culling::culling(ui, desk, view));
         style::section(ui, "Camera", true, |ui| camera::camera(ui, desk, view));

@@ -3,7 +3,7 @@
 use egui::{PointerButton, Rect, Response, Sense, Ui};
 use glam::DVec2;
 
-use super::{Desk, Panel, View, gizmo};
+use super::{Action, Desk, Panel, View, gizmo, mirrors, numbers};
 use crate::app::control::{self, Mode};
 use crate::app::keys;
 use crate::frame::Camera;
@@ -13,7 +13,7 @@ use crate::settings::Show;
 const NOTCH: f64 = 50.0;
 
 /// Takes what is left of the window for the picture; moves the camera and the lights.
-pub fn picture(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_>) -> Rect {
+pub fn picture(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_>, actions: &mut Vec<Action>) -> Rect {
     let rect = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     super::style::name_it(&response, "Picture");
@@ -37,15 +37,24 @@ pub fn picture(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
     let pressed = ui.input(|input| input.pointer.primary_pressed().then(|| input.pointer.press_origin()).flatten());
     if let Some(at) = pressed
         && held
+        && !panel.makes_mirrors
     {
         panel.drag = gizmo::grab(panel.selected_light, &panel.icons, desk, view, &seen_by(desk, view, camera), rect, at);
     }
     if response.clicked()
         && let Some(at) = response.interact_pointer_pos()
     {
-        match panel.drag.take().or_else(|| gizmo::grab(None, &panel.icons, desk, view, &seen_by(desk, view, camera), rect, at)) {
-            Some(light) => panel.choose_light(light.light),
-            None => panel.selected_light = None,
+        if panel.makes_mirrors {
+            mirrors::click(desk, view, &seen_by(desk, view, camera), rect, at, actions);
+        } else {
+            match panel
+                .drag
+                .take()
+                .or_else(|| gizmo::grab(None, &panel.icons, desk, view, &seen_by(desk, view, camera), rect, at))
+            {
+                Some(light) => panel.choose_light(light.light),
+                None => panel.selected_light = None,
+            }
         }
     }
     match panel.drag {
@@ -77,6 +86,12 @@ pub fn picture(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
         panel.icons = gizmo::paint(ui, panel.selected_light, panel.drag, desk, view, &camera, rect);
     }
     super::verify::overlay(ui, rect, desk, view);
+    if panel.makes_mirrors {
+        let words = "click a flat surface: a mirror, or none any more | X or Esc ends this";
+        // Above what stands there while the panel is hidden.
+        numbers::caption(ui, rect.with_max_y(rect.max.y - 26.0), words);
+        response.on_hover_cursor(egui::CursorIcon::Crosshair);
+    }
     rect
 }
 
