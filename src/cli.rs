@@ -307,13 +307,13 @@ struct VerifyArguments {
     #[command(flatten)]
     picture: PictureArguments,
     /// Looks from N random places with the light at random places: anywhere, in casters, in their
-    /// shadows, with casters across the near plane; 320x180 pixels each unless --size says otherwise
+    /// shadows, with casters across the near plane, at mirrors; 320x180 pixels each unless --size says otherwise
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     random: Option<u32>,
     /// What the random views are made from: the same seed gives the same views everywhere
     #[arg(long, value_name = "S", default_value_t = 1, requires = "random")]
     seed: u64,
-    /// Writes a picture of the wrong pixels: red drawn lit, blue drawn dark, edges faintly
+    /// Writes a picture of the wrong pixels: red drawn lit, blue drawn dark, magenta another surface, edges faintly
     #[arg(long, value_name = "FILE.png")]
     diff: Option<PathBuf>,
     /// Prints what was found as JSON

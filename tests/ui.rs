@@ -21,7 +21,7 @@ use obscura::settings::{
 };
 use obscura::techniques::TABLE;
 use obscura::techniques::cases::{self, Class};
-use obscura::truth::{Comparison, Wrong, WrongPixel};
+use obscura::truth::{Comparison, SurfaceComparison, Wrong, WrongPixel};
 
 /// Everything around the panel that the window would hold.
 struct Bench {
@@ -673,11 +673,13 @@ fn a_view_is_verified_and_says_what_was_found_until_it_changes() {
     let pixels = vec![WrongPixel { x: 3, y: 4, how: Wrong::Lit }];
     let found = Comparison { decided: 900, lit: 500, shadow: 300, edges: 77, pixels: pixels.clone() };
     let settings = harness.state().settings.clone();
-    harness.state_mut().verification =
-        Verification::found(Finding { settings, lights: vec![("lamp".into(), found)], wrong: pixels });
+    let surfaces = SurfaceComparison { decided: 950, edges: 27, ..SurfaceComparison::default() };
+    let finding = Finding { settings, lights: vec![("lamp".into(), found)], surfaces, wrong: pixels };
+    harness.state_mut().verification = Verification::found(finding);
     harness.run_steps(2);
     let words = "lamp: 900 decided, 77 edges, 1 wrong";
     assert!(harness.query_by_label_contains(words).is_some());
+    assert!(harness.query_by_label_contains("surfaces: 950 decided, 27 edges, 0 wrong").is_some());
     harness.state_mut().settings.fov = Some(33.0);
     harness.run_steps(2);
     assert!(harness.query_by_label_contains(words).is_none(), "of another view it says nothing");

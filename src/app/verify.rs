@@ -11,7 +11,7 @@ use std::sync::{Arc, PoisonError};
 use crate::headless::verify::Shots;
 use crate::scene::Scene;
 use crate::settings::Settings;
-use crate::truth::{Comparison, World, WrongPixel};
+use crate::truth::{Comparison, SurfaceComparison, WrongPixel};
 
 /// What was found of one view.
 #[derive(Debug, Clone)]
@@ -20,7 +20,9 @@ pub struct Finding {
     pub settings: Settings,
     /// Light by light.
     pub lights: Vec<(String, Comparison)>,
-    /// All lights' wrong pixels.
+    /// Which surfaces are seen, and through which mirrors.
+    pub surfaces: SurfaceComparison,
+    /// All wrong pixels.
     pub wrong: Vec<WrongPixel>,
 }
 
@@ -54,7 +56,7 @@ impl Verification {
         self.finding = None;
         self.running = Some(Running { stop: stop.clone(), done: done.clone(), answer });
         let work = move || {
-            let world = World::new(&scene, &shots.pose);
+            let world = shots.world(&scene);
             let shown = std::sync::Mutex::new(0);
             let goes_on = |share: f64| {
                 let permille = (share * 1e3) as u32;
@@ -66,12 +68,11 @@ impl Verification {
                 }
                 !stop.load(Ordering::Relaxed)
             };
-            let Some(judged) = shots.judge(&world, settings.size, &goes_on) else { return };
-            let lights: Vec<_> =
-                judged.found.into_iter().map(|(_, light, found)| (scene.lights[light].name.clone(), found)).collect();
-            let wrong = lights.iter().flat_map(|(_, found)| found.pixels.iter().copied()).collect();
+            let Some(judged) = shots.judge(&scene, &world, settings.size, &goes_on) else { return };
+            let wrong = judged.wrong();
+            let lights = judged.found.into_iter().map(|(_, light, found)| (scene.lights[light].name.clone(), found)).collect();
             // Nobody may be waiting any more.
-            let _ = sender.send(Finding { settings, lights, wrong });
+            let _ = sender.send(Finding { settings, lights, surfaces: judged.surfaces, wrong });
             wake();
         };
         std::thread::spawn(work);

@@ -2,9 +2,12 @@
 //!
 //! Each technique draws `show shadow` of each light; every decided pixel must be what the rays say. A
 //! technique that claims to be exact fails with its first wrong pixel; of the others the number is the
-//! price that is paid for them.
+//! price that is paid for them. Once for all of them `show surfaces` is drawn, and every decided pixel must
+//! show the instance that rays meet, through the very mirrors that they meet on their way.
+//!
+//! What is drawn has every view in a mirror, however small: rays know no least size.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt::{self, Display};
 use std::time::Instant;
 
@@ -15,12 +18,12 @@ use super::wander::{Place, strays};
 use super::{HeadlessError, check_target, progress_bar, save_png};
 use crate::cli::{VerifyRequest, render_command};
 use crate::director::{self, StageError};
-use crate::frame::{Camera, Capabilities, FramePlan};
+use crate::frame::{Camera, Capabilities, FramePlan, identity_color};
 use crate::gpu::{Context, Renderer, readback};
-use crate::scene::{AnimationChoice, Pose, PosedLight, Scene};
-use crate::settings::{Settings, Show, Technique};
+use crate::scene::{AnimationChoice, Mirror, Pose, PosedLight, Scene};
+use crate::settings::{Mirrors, Settings, Show, Technique};
 use crate::techniques;
-use crate::truth::{Comparison, Verdicts, World, WrongPixel, paint};
+use crate::truth::{Comparison, SurfaceComparison, Surfaces, Traced, Verdicts, World, Wrong, WrongPixel, paint};
 
 /// What was found.
 #[derive(Debug, Clone, Serialize)]
@@ -43,8 +46,12 @@ pub struct Report {
     pub adapter: String,
     /// Technique by technique and light by light, all views together.
     pub lights: Vec<LightRow>,
+    /// Which surface each pixel shows, through which mirrors: all views together.
+    pub surfaces: SurfaceRow,
     /// The first views with wrong pixels, exact techniques' before others'.
     pub wrong_views: Vec<WrongView>,
+    /// The first views that show a wrong surface.
+    pub wrong_surfaces: Vec<WrongSurfaceView>,
     /// Milliseconds spent on drawing.
     pub draw_ms: f64,
     /// Milliseconds spent on rays.
@@ -76,6 +83,36 @@ pub struct LightRow {
     pub wrong: usize,
 }
 
+/// What pixels show, whatever lights it.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct SurfaceRow {
+    /// Whether every decided pixel must be right, with these settings.
+    pub exact: bool,
+    /// Pixels that rays agree on.
+    pub decided: usize,
+    /// Of those, how many are seen after so many reflections: the first entry is for none.
+    pub bounces: Vec<usize>,
+    /// Pixels that rays do not agree on.
+    pub edges: usize,
+    /// Decided pixels that show another surface, or show it through other mirrors.
+    pub wrong: usize,
+}
+
+/// A view that shows a wrong surface.
+#[derive(Debug, Clone, Serialize)]
+pub struct WrongSurfaceView {
+    /// How many pixels do.
+    pub wrong: usize,
+    /// The first of them, from the left and the top.
+    pub first: [u32; 2],
+    /// What is seen there, and through which mirrors.
+    pub seen: String,
+    /// What is drawn there.
+    pub drawn: String,
+    /// What draws it.
+    pub command: String,
+}
+
 /// A view with wrong pixels.
 #[derive(Debug, Clone, Serialize)]
 pub struct WrongView {
@@ -97,36 +134,26 @@ pub struct WrongView {
 const WRONG_VIEWS_KEPT: usize = 8;
 
 impl Report {
-    /// Wrong pixels of techniques that claim to have none.
+    /// Wrong pixels of techniques that claim to have none, and pixels that show a wrong surface.
     #[must_use]
     pub fn broken_promises(&self) -> usize {
-        self.lights.iter().filter(|row| row.exact).map(|row| row.wrong).sum()
+        let lights: usize = self.lights.iter().filter(|row| row.exact).map(|row| row.wrong).sum();
+        lights + if self.surfaces.exact { self.surfaces.wrong } else { 0 }
     }
 }
 
 /// One view, drawn and judged.
+#[derive(Default)]
 pub struct Verified {
-    /// What rays say for each of them.
-    pub verdicts: Vec<Verdicts>,
-    /// Technique by technique, and light by light, what came of it.
-    pub found: Vec<(Technique, usize, Comparison)>,
-    /// Whether the eye is in the shadow of any of them.
-    pub eye_in_shadow: bool,
+    /// What came of it.
+    pub judged: Judged,
     /// Milliseconds.
     pub draw_ms: f64,
     /// Milliseconds.
     pub trace_ms: f64,
 }
 
-impl Verified {
-    /// 2 where a technique that claims to be exact is wrong, 1 where another is.
-    fn worst(&self) -> u8 {
-        let wrong = self.found.iter().filter(|(.., found)| found.wrong() > 0);
-        wrong.map(|(technique, ..)| 1 + u8::from(techniques::row(*technique).exact)).max().unwrap_or(0)
-    }
-}
-
-/// `show shadow` of some lights by some techniques, drawn and to be judged.
+/// `show shadow` of some lights by some techniques, and `show surfaces`: drawn and to be judged.
 pub struct Shots {
     /// The scene as it was drawn.
     pub pose: Pose,
@@ -136,21 +163,73 @@ pub struct Shots {
     lights: Vec<PosedLight>,
     /// Technique by technique, and light by light.
     pictures: Vec<(Technique, usize, RgbaImage)>,
+    /// Which surface each pixel shows.
+    surfaces: RgbaImage,
+    /// By what the pixels' colours mean.
+    key: Key,
+    mirrors: Vec<Mirror>,
+    bounces: u32,
+}
+
+/// What the colours of `show surfaces` mean.
+struct Key {
+    /// The plan's views by the mirrors on their way.
+    views: HashMap<Vec<usize>, usize>,
+    instances: usize,
+}
+
+impl Key {
+    /// The colour of an instance in the view that a path leads to; none where the plan has no such view.
+    fn color(&self, path: &[usize], instance: Option<usize>) -> Option<[u8; 3]> {
+        let Some(instance) = instance else { return Some(identity_color(0)) };
+        let number = self.views.get(path)? * self.instances + instance + 1;
+        u32::try_from(number).ok().map(identity_color)
+    }
+
+    /// The path and the instance of a colour, where it has any: a search, for few.
+    fn meaning(&self, color: [u8; 3]) -> Option<(&[usize], Option<usize>)> {
+        let all = || [None].into_iter().chain((0..self.instances).map(Some));
+        let mut pairs = self.views.keys().flat_map(|path| all().map(move |instance| (path.as_slice(), instance)));
+        pairs.find(|(path, instance)| self.color(path, *instance) == Some(color))
+    }
 }
 
 /// Shots, judged.
+#[derive(Default)]
 pub struct Judged {
     /// What rays say for each light.
     pub verdicts: Vec<Verdicts>,
     /// Technique by technique, and light by light, what came of it.
     pub found: Vec<(Technique, usize, Comparison)>,
+    /// What is seen, by rays.
+    pub seen: Surfaces,
+    /// What came of `show surfaces`.
+    pub surfaces: SurfaceComparison,
+    /// In words, what the first pixel with a wrong surface should show, and what it shows.
+    pub first_wrong: Option<[String; 2]>,
     /// Whether the eye is in the shadow of any of the lights.
     pub eye_in_shadow: bool,
 }
 
+impl Judged {
+    /// 2 where a technique that claims to be exact is wrong, or a surface, 1 where another is.
+    fn worst(&self) -> u8 {
+        let wrong = self.found.iter().filter(|(.., found)| found.wrong() > 0);
+        let lights = wrong.map(|(technique, ..)| 1 + u8::from(techniques::row(*technique).exact)).max().unwrap_or(0);
+        if self.surfaces.pixels.is_empty() { lights } else { 2 }
+    }
+
+    /// Every wrong pixel, of whatever kind.
+    #[must_use]
+    pub fn wrong(&self) -> Vec<WrongPixel> {
+        let lights = self.found.iter().flat_map(|(.., found)| found.pixels.iter().copied());
+        lights.chain(self.surfaces.pixels.iter().map(|at| WrongPixel { x: at.x, y: at.y, how: Wrong::Surface })).collect()
+    }
+}
+
 impl Shots {
-    /// Draws `show shadow` of each of `lights` by each of `techniques`, everything else as `settings`
-    /// say. `draw` makes the picture of a plan. None where there is nothing to draw.
+    /// Draws `show shadow` of each of `lights` by each of `techniques`, and `show surfaces`, everything else as
+    /// `settings` say. `draw` makes the picture of a plan. None where there is nothing to draw.
     ///
     /// # Errors
     /// Settings that cannot be drawn, or what `draw` says.
@@ -161,46 +240,95 @@ impl Shots {
         (techniques, lights): (&[Technique], &[usize]),
         mut draw: impl FnMut(&FramePlan, &Pose) -> Result<RgbaImage, E>,
     ) -> Result<Option<Self>, E> {
-        let mut shots: Option<Self> = None;
+        let Some(&technique) = techniques.first().filter(|_| !lights.is_empty()) else { return Ok(None) };
+        let settings = whole(settings);
+        let surfaces = Settings { technique, show: Show::Surfaces, ..settings.clone() };
+        let (pose, plan) = director::stage(&surfaces, scene, capabilities)?;
+        let mut shots = Self {
+            camera: plan.views[0].camera,
+            lights: Vec::new(),
+            pictures: Vec::new(),
+            surfaces: draw(&plan, &pose)?,
+            key: Key {
+                views: plan.views.iter().enumerate().map(|(number, view)| (view.path().to_vec(), number)).collect(),
+                instances: scene.instances().count(),
+            },
+            mirrors: scene.mirrors_in_force(&settings.mirrors).0,
+            bounces: settings.mirrors.most_bounces(),
+            pose,
+        };
         for &technique in techniques {
             for &light in lights {
                 let settings = Settings { technique, show: Show::Shadow, light, ..settings.clone() };
                 let (pose, plan) = director::stage(&settings, scene, capabilities)?;
-                let picture = draw(&plan, &pose)?;
-                let posed = pose.lights[light];
-                let camera = plan.views[0].camera;
-                let shots = shots.get_or_insert_with(|| Self { pose, camera, lights: Vec::new(), pictures: Vec::new() });
-                if shots.pictures.len() < lights.len() {
-                    shots.lights.push(posed);
+                shots.pictures.push((technique, light, draw(&plan, &pose)?));
+                if shots.lights.len() < lights.len() {
+                    shots.lights.push(pose.lights[light]);
                 }
-                shots.pictures.push((technique, light, picture));
             }
         }
-        Ok(shots)
+        Ok(Some(shots))
     }
 
-    /// Holds the pictures, of `size` pixels, against rays through `world`, which is the pose's.
-    /// `goes_on` as in [`World::judge_lights`].
+    /// What rays are cast through.
     #[must_use]
-    pub fn judge(&self, world: &World, size: [u32; 2], goes_on: &(dyn Fn(f64) -> bool + Sync)) -> Option<Judged> {
-        let verdicts = world.judge_lights(&self.camera, &self.lights, size, goes_on)?;
+    pub fn world(&self, scene: &Scene) -> World {
+        World::with_mirrors(scene, &self.pose, &self.mirrors, self.bounces)
+    }
+
+    /// Holds the pictures, of `size` pixels, against rays through `world`, which is [`Self::world`] or that of
+    /// other shots of the same moment. `goes_on` as in [`World::judge_lights`].
+    #[must_use]
+    pub fn judge(&self, scene: &Scene, world: &World, size: [u32; 2], goes_on: &(dyn Fn(f64) -> bool + Sync)) -> Option<Judged> {
+        let Traced { verdicts, surfaces: seen } = world.trace(&self.camera, &self.lights, size, goes_on)?;
         let found = self
             .pictures
             .iter()
             .zip(verdicts.iter().cycle())
             .map(|((technique, light, picture), verdicts)| (*technique, *light, verdicts.compare(picture)))
             .collect();
+        let surfaces = seen.compare(&self.surfaces, |path, instance| self.key.color(path, instance));
+        let first_wrong = surfaces.pixels.first().map(|wrong| {
+            let drawn = wrong.drawn.and_then(|color| self.key.meaning(color));
+            let drawn = drawn.map_or("what no view has".into(), |(path, instance)| self.words(scene, path, instance));
+            [self.words(scene, &seen.paths()[wrong.path], wrong.instance), drawn]
+        });
         let eye_in_shadow = self.lights.iter().any(|light| world.shades(self.camera.eye, light));
-        Some(Judged { verdicts, found, eye_in_shadow })
+        Some(Judged { verdicts, found, seen, surfaces, first_wrong, eye_in_shadow })
+    }
+
+    /// An instance as it is seen through mirrors: `chair in left mirror in right mirror`, the last mirror of the
+    /// way first.
+    fn words(&self, scene: &Scene, path: &[usize], instance: Option<usize>) -> String {
+        let name = |instance| scene.instances().nth(instance).map_or("", |(_, node, _)| node.name.as_str());
+        let mirrors = path.iter().rev().map(|mirror| format!(" in {}", self.mirrors[*mirror].name));
+        instance.map_or("nothing", name).to_owned() + &mirrors.collect::<String>()
     }
 }
 
-/// A world and the moment it belongs to: views of one moment share it.
+/// The same settings, with every view in a mirror that shows at all, and every pixel as it is.
+fn whole(settings: &Settings) -> Settings {
+    let mirrors = Mirrors { least_pixels: 0, ..settings.mirrors.clone() };
+    Settings { mirrors, ..settings.clone() }
+}
+
+/// A world, and the moment and the mirrors it belongs to: views of one moment share it.
 #[derive(Default)]
-pub struct Kept(Option<(f64, AnimationChoice, World)>);
+pub struct Kept(Option<(f64, AnimationChoice, Mirrors, World)>);
+
+impl Kept {
+    /// The world of some shots: the one that is kept, where it is theirs, or a new one, which is kept then.
+    fn world(&mut self, scene: &Scene, settings: &Settings, shots: &Shots) -> &World {
+        let animation = settings.animation.unwrap_or(scene.default_animation);
+        let (time, mirrors) = (settings.time, &settings.mirrors);
+        let held = self.0.take().filter(|kept| (kept.0, kept.1, &kept.2) == (time, animation, mirrors));
+        let held = held.unwrap_or_else(|| (time, animation, mirrors.clone(), shots.world(scene)));
+        &self.0.insert(held).3
+    }
+}
 
 /// Draws `show shadow` of the scene (which the renderer holds) for each of `lights` by each of
-/// `techniques`, everything else as `settings` say, and holds the pictures against exact rays.
+/// `techniques`, and `show surfaces`, everything else as `settings` say, and holds the pictures against exact rays.
 ///
 /// # Errors
 /// Settings that cannot be drawn, or a device that cannot.
@@ -217,17 +345,8 @@ pub fn verify_view(
         readback::picture(context, renderer, plan, scene, pose).map(|(_, picture)| picture).map_err(HeadlessError::from)
     })?;
     let draw_ms = lap(&mut begun);
-    let judged = shots.and_then(|shots| {
-        let animation = settings.animation.unwrap_or(scene.default_animation);
-        let same = |kept: &(f64, AnimationChoice, World)| kept.0 == settings.time && kept.1 == animation;
-        let held = kept.0.take().filter(same);
-        let held = held.unwrap_or_else(|| (settings.time, animation, World::new(scene, &shots.pose)));
-        let (.., world) = kept.0.insert(held);
-        shots.judge(world, settings.size, &|_| true)
-    });
-    let Judged { verdicts, found, eye_in_shadow } =
-        judged.unwrap_or_else(|| Judged { verdicts: Vec::new(), found: Vec::new(), eye_in_shadow: false });
-    Ok(Verified { verdicts, found, eye_in_shadow, draw_ms, trace_ms: lap(&mut begun) })
+    let judged = shots.and_then(|shots| shots.judge(scene, kept.world(scene, settings, &shots), settings.size, &|_| true));
+    Ok(Verified { judged: judged.unwrap_or_default(), draw_ms, trace_ms: lap(&mut begun) })
 }
 
 /// Does what is asked; the picture of wrong pixels is written whatever they are.
@@ -264,7 +383,9 @@ pub fn verify(request: &VerifyRequest) -> Result<Report, HeadlessError> {
         spoiled_by: techniques::spoiled_by(&request.settings),
         adapter: context.capabilities().adapter.clone(),
         lights: Vec::new(),
+        surfaces: SurfaceRow { exact: techniques::spoiled_by(&request.settings).is_none(), ..SurfaceRow::default() },
         wrong_views: Vec::new(),
+        wrong_surfaces: Vec::new(),
         draw_ms: 0.0,
         trace_ms: 0.0,
     };
@@ -283,13 +404,14 @@ pub fn verify(request: &VerifyRequest) -> Result<Report, HeadlessError> {
         if let Some(place) = place {
             *report.eyes.entry(*place).or_default() += 1;
         }
-        // The picture shows the first view in which an exact technique is wrong, else the first with
-        // anything wrong, else the first.
-        let rank = view.worst();
+        // The picture shows the first view in which an exact technique or a surface is wrong, else the first
+        // with anything wrong, else the first.
+        let rank = view.judged.worst();
         if request.diff.is_some() && shown.as_ref().is_none_or(|(shown, ..)| rank > *shown) {
             shown = Some((rank, settings.clone(), view));
         }
-        progress.set_message(format!("{} wrong", rows.values().map(|row| row.wrong).sum::<usize>()));
+        let wrong = report.surfaces.wrong + rows.values().map(|row| row.wrong).sum::<usize>();
+        progress.set_message(format!("{wrong} wrong"));
         progress.inc(1);
     }
     progress.finish_and_clear();
@@ -300,24 +422,19 @@ pub fn verify(request: &VerifyRequest) -> Result<Report, HeadlessError> {
         let settings = Settings { show: Show::Final, samples: 1, ..settings };
         let (pose, plan) = director::stage(&settings, &scene, context.capabilities())?;
         let (_, mut picture) = readback::picture(&context, &mut renderer, &plan, &scene, &pose)?;
-        paint_over(&view, &mut picture);
+        paint(&mut picture, &view.judged.verdicts, &view.judged.wrong());
         save_png(path, &picture, &render_command(&settings))?;
     }
     Ok(report)
-}
-
-/// Paints every wrong pixel of a view over its picture.
-fn paint_over(view: &Verified, picture: &mut RgbaImage) {
-    let wrong: Vec<_> = view.found.iter().flat_map(|(.., found)| found.pixels.iter().copied()).collect();
-    paint(picture, &view.verdicts, &wrong);
 }
 
 impl Report {
     fn add(&mut self, view: &Verified, scene: &Scene, settings: &Settings, rows: &mut BTreeMap<(usize, usize), LightRow>) {
         self.draw_ms += view.draw_ms;
         self.trace_ms += view.trace_ms;
-        self.eyes_in_shadow += usize::from(view.eye_in_shadow);
-        for (technique, light, found) in &view.found {
+        self.eyes_in_shadow += usize::from(view.judged.eye_in_shadow);
+        self.add_surfaces(&view.judged, settings);
+        for (technique, light, found) in &view.judged.found {
             let exact = techniques::row(*technique).exact && self.spoiled_by.is_none();
             let order = Technique::ALL.iter().position(|one| one == technique).unwrap_or(usize::MAX);
             let row = rows.entry((order, *light)).or_insert_with(|| LightRow {
@@ -342,7 +459,7 @@ impl Report {
             if let Some(&first) = found.pixels.first()
                 && kept < WRONG_VIEWS_KEPT
             {
-                let settings = Settings { technique: *technique, show: Show::Shadow, light: *light, ..settings.clone() };
+                let settings = Settings { technique: *technique, show: Show::Shadow, light: *light, ..whole(settings) };
                 let command = render_command(&settings);
                 self.wrong_views.push(WrongView {
                     technique: *technique,
@@ -354,6 +471,38 @@ impl Report {
                 });
             }
         }
+    }
+}
+
+impl Report {
+    fn add_surfaces(&mut self, judged: &Judged, settings: &Settings) {
+        let (row, found) = (&mut self.surfaces, &judged.surfaces);
+        row.decided += found.decided;
+        row.edges += found.edges;
+        row.wrong += found.pixels.len();
+        row.bounces.resize(row.bounces.len().max(found.bounces.len()), 0);
+        row.bounces.iter_mut().zip(&found.bounces).for_each(|(all, these)| *all += these);
+        if let (Some(first), Some([seen, drawn])) = (found.pixels.first(), judged.first_wrong.clone())
+            && self.wrong_surfaces.len() < WRONG_VIEWS_KEPT
+        {
+            let command = render_command(&Settings { show: Show::Surfaces, ..whole(settings) });
+            let (wrong, first) = (found.pixels.len(), [first.x, first.y]);
+            self.wrong_surfaces.push(WrongSurfaceView { wrong, first, seen, drawn, command });
+        }
+    }
+}
+
+impl Display for SurfaceRow {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let promise = if self.exact && self.wrong > 0 { "  must be exact" } else { "" };
+        let reflected: usize = self.bounces.iter().skip(1).sum();
+        let name = if reflected == 0 { "seen".into() } else { format!("seen, {reflected} in mirrors") };
+        writeln!(out, "{:<16} {name:<50} {:>11} {:>9} {:>9}{promise}", "surfaces", self.decided, self.edges, self.wrong)?;
+        if reflected == 0 {
+            return Ok(());
+        }
+        let counts: Vec<_> = (1..).zip(&self.bounces[1..]).map(|(bounces, pixels)| format!("{pixels} after {bounces}")).collect();
+        writeln!(out, "pixels decided by reflections: {}", counts.join(", "))
     }
 }
 
@@ -387,6 +536,7 @@ impl Display for Report {
                 row.wrong
             )?;
         }
+        write!(out, "{}", self.surfaces)?;
         if let Some(what) = self.spoiled_by {
             writeln!(out, "no technique claims to be exact here: {what} spoils counting")?;
         }
@@ -394,17 +544,22 @@ impl Display for Report {
             let count = |place| self.eyes.get(&place).copied().unwrap_or(0);
             writeln!(
                 out,
-                "eyes: {} anywhere, {} in or at casters' boxes, {} behind casters, {} with casters across the near plane; {} in shadow",
+                "eyes: {} anywhere, {} in or at casters' boxes, {} behind casters, {} with casters across the near plane, {} at mirrors; {} in shadow",
                 count(Place::Anywhere),
                 count(Place::AtCaster),
                 count(Place::BehindCaster),
                 count(Place::AcrossNearPlane),
+                count(Place::AtMirror),
                 self.eyes_in_shadow
             )?;
         }
         for view in &self.wrong_views {
             let WrongPixel { x, y, .. } = view.first;
             writeln!(out, "{} wrong by {}, the first at {x},{y}: {}", view.wrong, view.technique.name(), view.command)?;
+        }
+        for view in &self.wrong_surfaces {
+            let WrongSurfaceView { wrong, first: [x, y], seen, drawn, command } = view;
+            writeln!(out, "{wrong} show a wrong surface, the first at {x},{y}, drawn as {drawn} instead of {seen}: {command}")?;
         }
         writeln!(out, "drawn in {:.1} s, traced in {:.1} s", self.draw_ms / 1e3, self.trace_ms / 1e3)
     }

@@ -2,10 +2,11 @@
 //!
 //! Most views of most scenes are easy. So the eyes go where shadow volumes are hard, in turn: anywhere
 //! in and around the scene, in a caster's box, behind a caster seen from the light (in its shadow),
-//! and so close to a caster's surface that the near plane cuts it.
+//! and so close to a caster's surface that the near plane cuts it; and where the scene has mirrors, close
+//! before one and behind it.
 
 use fastrand::Rng;
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 use serde::Serialize;
 
 use crate::frame::Camera;
@@ -25,6 +26,8 @@ pub enum Place {
     BehindCaster,
     /// A caster's surface lies before the near plane, or across it.
     AcrossNearPlane,
+    /// Close to a mirror, on either side.
+    AtMirror,
 }
 
 /// One view.
@@ -70,6 +73,8 @@ struct Moment {
     high: DVec3,
     /// Nodes that cast, with their boxes in world space.
     casters: Vec<(usize, Aabb)>,
+    /// The triangles of mirrors, world space, each with its mirror's plane.
+    glass: Vec<([DVec3; 3], DVec4)>,
     near: f64,
 }
 
@@ -93,7 +98,10 @@ impl Moment {
         // A sheet has no height, and the views are to leave its plane.
         let margin = ((high - low) * 0.25).max(DVec3::splat((high - low).max_element() * 0.1));
         let near = Camera::choose(&settings, scene, &pose).map_or(crate::frame::camera::DEFAULT_NEAR, |camera| camera.near);
-        Self { settings, pose, low: low - margin, high: high + margin, casters, near }
+        let mirrors = scene.mirrors_in_force(&settings.mirrors).0;
+        let posed = mirrors.iter().filter_map(|mirror| mirror.posed(scene, &pose).ok());
+        let glass = posed.flat_map(|posed| posed.triangles.into_iter().map(move |corners| (corners, posed.plane))).collect();
+        Self { settings, pose, low: low - margin, high: high + margin, casters, glass, near }
     }
 
     fn stray(&self, scene: &Scene, light: usize, view: usize, random: &mut Rng) -> Stray {
@@ -121,10 +129,12 @@ impl Moment {
     }
 
     fn eye(&self, scene: &Scene, light: usize, position: Option<DVec3>, random: &mut Rng) -> (Place, DVec3) {
-        let place = match random.u32(..6) {
+        let places = if self.glass.is_empty() { 6 } else { 8 };
+        let place = match random.u32(..places) {
             0 => Place::AtCaster,
             1 => Place::BehindCaster,
             2 => Place::AcrossNearPlane,
+            6.. => return (Place::AtMirror, self.at_mirror(random)),
             _ => Place::Anywhere,
         };
         let anywhere = between(random, self.low, self.high);
@@ -132,7 +142,7 @@ impl Moment {
         let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
         let inside = between(random, low, high);
         match place {
-            Place::Anywhere => (place, anywhere),
+            Place::Anywhere | Place::AtMirror => (place, anywhere),
             Place::AtCaster => (place, between(random, low - self.near, high + self.near)),
             Place::BehindCaster => {
                 let away = match position {
@@ -148,19 +158,33 @@ impl Moment {
         }
     }
 
+    /// A place before a mirror or behind it, mostly before, at a distance of any order of magnitude between a
+    /// hundredth of the near plane's and the scene's width.
+    fn at_mirror(&self, random: &mut Rng) -> DVec3 {
+        let Some((corners, plane)) = random.choice(&self.glass) else { return self.low };
+        let (least, most) = (self.near * 0.01, (self.high - self.low).length() * 0.5);
+        let distance = least * (most / least).powf(random.f64());
+        let side = if random.u32(..4) == 0 { -1.0 } else { 1.0 };
+        in_triangle(*corners, random) + plane.truncate() * (side * distance)
+    }
+
     /// A point of a node's mesh, world space.
     fn on_surface(&self, scene: &Scene, node: usize, random: &mut Rng) -> Option<DVec3> {
         let mesh = &scene.meshes[scene.nodes[node].mesh?];
         let triangle = random.choice(mesh.topology.mesh_triangles())?;
         let positions = self.pose.positions(scene, node);
         let corner = |at: u32| positions[mesh.indices[(triangle * 3 + at) as usize] as usize].as_dvec3();
-        let (mut u, mut v) = (random.f64(), random.f64());
-        if u + v > 1.0 {
-            (u, v) = (1.0 - u, 1.0 - v);
-        }
-        let at = corner(0) + (corner(1) - corner(0)) * u + (corner(2) - corner(0)) * v;
+        let at = in_triangle([corner(0), corner(1), corner(2)], random);
         Some(self.pose.world_from_object[node].transform_point3(at))
     }
+}
+
+fn in_triangle([a, b, c]: [DVec3; 3], random: &mut Rng) -> DVec3 {
+    let (mut u, mut v) = (random.f64(), random.f64());
+    if u + v > 1.0 {
+        (u, v) = (1.0 - u, 1.0 - v);
+    }
+    a + (b - a) * u + (c - a) * v
 }
 
 fn between(random: &mut Rng, low: DVec3, high: DVec3) -> DVec3 {
@@ -172,6 +196,7 @@ mod tests {
     #![allow(clippy::unwrap_used, clippy::panic)] // a test may stop where it stands
     use super::*;
     use crate::scene::stock;
+    use crate::settings::{MirrorMode, Mirrors};
     use std::collections::BTreeSet;
 
     #[test]
@@ -190,6 +215,29 @@ mod tests {
             crate::cli::check(&stray.settings).unwrap();
             crate::cli::check_against(&stray.settings, &scene).unwrap();
         }
+    }
+
+    #[test]
+    fn eyes_go_before_and_behind_mirrors_where_there_are_some() {
+        let scene = stock::build("barbershop").unwrap().unwrap();
+        let base = Settings::default();
+        let eyes = |settings: &Settings| {
+            let all = strays(&scene, settings, None, 120, 3);
+            let mirrors = all.into_iter().filter(|stray| stray.place == Place::AtMirror);
+            let eye = |stray: Stray| match stray.settings.camera {
+                CameraChoice::Free { eye, .. } => eye,
+                other => panic!("{other:?}"),
+            };
+            mirrors.map(eye).collect::<Vec<_>>()
+        };
+        // They hang at 2.27 m left and right of the middle, over the counters.
+        let eyes_on = eyes(&base);
+        let behind = eyes_on.iter().filter(|eye| eye.x.abs() > 2.27).count();
+        let close = eyes_on.iter().filter(|eye| (eye.x.abs() - 2.27).abs() < 0.1).count();
+        assert!(eyes_on.len() > 15 && behind > 2 && close > 5, "{eyes_on:?}");
+        assert!(eyes_on.iter().all(|eye| (eye.y - 1.72).abs() < 0.72 && (eye.z + 0.7).abs() < 2.34), "{eyes_on:?}");
+        let off = Mirrors { mode: MirrorMode::Off, ..Mirrors::default() };
+        assert!(eyes(&Settings { mirrors: off, ..base }).is_empty());
     }
 
     #[test]

@@ -47,6 +47,8 @@ pub enum Wrong {
     Dark,
     /// Drawn as reached by the light's range and is not, or the other way round; or no verdict at all.
     Reach,
+    /// Another surface is drawn, or one through other mirrors.
+    Surface,
 }
 
 /// One of them.
@@ -161,13 +163,14 @@ pub fn paint(picture: &mut RgbaImage, verdicts: &[Verdicts], wrong: &[WrongPixel
 
 impl Wrong {
     /// sRGB: red where it is drawn lit, blue where it is drawn dark, yellow where the light's reach
-    /// is wrong.
+    /// is wrong, magenta where the surface is.
     #[must_use]
     pub const fn color(self) -> [u8; 3] {
         match self {
             Self::Lit => [255, 60, 40],
             Self::Dark => [60, 140, 255],
             Self::Reach => [255, 210, 40],
+            Self::Surface => [255, 80, 255],
         }
     }
 }

@@ -59,7 +59,8 @@ impl Stage {
         let lights: Vec<_> = (0..scene.lights.len()).collect();
         let device = (&self.context, &mut self.renderer);
         let view = verify_view(device, scene, settings, &[settings.technique], &lights, &mut Kept::default()).unwrap();
-        view.found.into_iter().map(|(.., comparison)| comparison).collect()
+        assert_eq!(view.judged.first_wrong, None, "{} pixels show another surface", view.judged.surfaces.pixels.len());
+        view.judged.found.into_iter().map(|(.., comparison)| comparison).collect()
     }
 
     /// The stencil after the last frame, rows from the top.

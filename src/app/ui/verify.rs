@@ -13,21 +13,24 @@ pub fn verify(ui: &mut Ui, desk: &Desk<'_>, view: &View<'_>, actions: &mut Vec<A
         ui.add(egui::ProgressBar::new(share).text("casting rays"));
         return;
     }
-    let tip = "Stops the time, draws each light's shadow by this technique, and holds every pixel against exact rays; wrong ones are \
-               framed in the picture: red drawn lit, blue drawn dark";
+    let tip = "Stops the time, draws each light's shadow by this technique, and which surface is seen through which mirrors, and holds \
+               every pixel against exact rays; wrong ones are framed in the picture: red drawn lit, blue drawn dark, magenta another surface";
     if ui.add_enabled(lights, egui::Button::new("Verify this view")).on_hover_text(tip).clicked() {
         actions.push(Action::Verify);
     }
     let Some(finding) = view.verification.finding(desk.settings) else { return };
-    for (name, found) in &finding.lights {
-        let words = format!("{name}: {} decided, {} edges, {} wrong", found.decided, found.edges, found.wrong());
-        let color = if found.wrong() == 0 { style::GOOD } else { style::ERROR };
-        ui.label(RichText::new(words).color(color));
+    let surfaces = &finding.surfaces;
+    let lights = finding.lights.iter().map(|(name, found)| (name.as_str(), found.decided, found.edges, found.wrong()));
+    let wrong_surfaces = surfaces.pixels.len();
+    for (name, decided, edges, wrong) in lights.chain([("surfaces", surfaces.decided, surfaces.edges, wrong_surfaces)]) {
+        let color = if wrong == 0 { style::GOOD } else { style::ERROR };
+        ui.label(RichText::new(format!("{name}: {decided} decided, {edges} edges, {wrong} wrong")).color(color));
     }
     let row = techniques::row(desk.settings.technique);
     let spoiled = techniques::spoiled_by(desk.settings);
     let words = match (finding.wrong.is_empty(), row.exact && spoiled.is_none()) {
         (true, _) => "Every decided pixel is what exact rays say.",
+        (false, _) if wrong_surfaces > 0 => "What is seen must be exact by every technique: please report this view.",
         (false, true) => "This technique claims to be exact: please report this view.",
         (false, false) => "This technique is known to fail in such views.",
     };
