@@ -1,10 +1,12 @@
 //! Mirrors: the mathematics on random planes and polygons, and which surfaces of a file are mirrors.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails may panic")]
 
+mod common;
 mod gltf_files;
 
 use std::collections::BTreeMap;
 
+use common::{Build, cube, square};
 use glam::{DAffine3, DQuat, DVec2, DVec3, DVec4, Vec3};
 use gltf_files::File;
 use obscura::frame::Camera;
@@ -12,8 +14,10 @@ use obscura::geometry::clip::clipped;
 use obscura::geometry::planar::{height, reflection, transformed};
 use obscura::geometry::{Aabb, Body, Sight};
 use obscura::scene::gltf::load_bytes;
+use obscura::scene::pick::surface_at;
 use obscura::scene::pose::pose;
-use obscura::scene::{Pose, Reflective, Scene, doctor};
+use obscura::scene::{Pose, Reflective, Refusal, Scene, doctor};
+use obscura::settings::{MirrorMode, MirrorPlace, Mirrors};
 use proptest::prelude::*;
 use serde_json::json;
 
@@ -314,4 +318,61 @@ fn a_bent_mirror_is_none_while_it_is_bent() {
     assert_eq!(posed(0.0).unwrap().triangles.len(), 2);
     assert_eq!(posed(1.0).unwrap_err().to_string(), "its corners lie up to 0.06 m off one plane");
     assert_eq!(posed(0.0).unwrap().plane, DVec4::Z);
+}
+
+/// A floor, a sheet over its middle drawn from both sides, and beside that a solid cube, turned inside out by its node.
+fn floor_sheet_and_cube() -> Scene {
+    let mut build = Build::new();
+    build.floor(0.0, 10.0);
+    let (sheet, cube) = (build.mesh(square(1)), build.mesh(cube(0)));
+    build.place(sheet, DVec3::Y * 2.0, DVec3::ONE);
+    build.place(cube, DVec3::new(5.0, 2.0, 0.0), DVec3::new(-1.0, 1.0, 1.0));
+    build.0
+}
+
+#[test]
+fn a_ray_meets_the_first_surface_that_is_seen_from_there() {
+    let scene = floor_sheet_and_cube();
+    let pose = still(&scene, 0.0);
+    let node = |eye: DVec3, direction: DVec3, nearest: f64| {
+        surface_at(&scene, &pose, eye, direction, nearest).map(|MirrorPlace { node, primitive }| (node, primitive))
+    };
+    let (floor, sheet, cube) = (Some((0, 0)), Some((1, 0)), Some((2, 0)));
+    let above = DVec3::new(0.3, 5.0, 0.2);
+    assert_eq!(node(above, DVec3::NEG_Y, 0.1), sheet);
+    assert_eq!(node(above, DVec3::NEG_Y * 0.5, 0.1), sheet, "lengths are in units of the direction");
+    assert_eq!(node(above, DVec3::NEG_Y, 3.5), floor, "the sheet is too near to be seen");
+    assert_eq!(node(DVec3::new(0.3, -3.0, 0.2), DVec3::Y, 0.1), sheet, "through the floor's back to the sheet's");
+    assert_eq!(node(DVec3::new(4.0, -3.0, 4.0), DVec3::Y, 0.1), None, "through the floor's back");
+    assert_eq!(node(above, DVec3::Y, 0.1), None);
+    let over_cube = DVec3::new(5.2, 6.0, 0.1);
+    assert_eq!(node(over_cube, DVec3::NEG_Y, 0.1), cube);
+    assert_eq!(node(over_cube, DVec3::NEG_Y, 3.5), floor, "its inside is not seen");
+    assert_eq!(node(DVec3::new(5.2, 2.0, 0.1), DVec3::NEG_Y, 0.01), floor, "nor from within");
+}
+
+#[test]
+fn surfaces_become_mirrors_and_mirrors_surfaces() {
+    let mut scene = floor_sheet_and_cube();
+    let [floor, sheet, cube] = [0, 1, 2].map(|node| MirrorPlace { node, primitive: 0 });
+    scene.mirrors = vec![obscura::scene::Mirror::of(&scene, 1, 0, Reflective::default()).unwrap()];
+    let mut settings = Mirrors::default();
+    let in_force = |settings: &Mirrors| {
+        let (mirrors, refused) = scene.mirrors_in_force(settings);
+        (mirrors.iter().map(|mirror| mirror.node).collect::<Vec<_>>(), refused.len())
+    };
+    assert_eq!(in_force(&settings), (vec![1], 0));
+    assert_eq!(scene.toggle_mirror(&mut settings, floor), Ok(true));
+    assert_eq!(in_force(&settings), (vec![1, 0], 0));
+    assert_eq!(scene.toggle_mirror(&mut settings, sheet), Ok(false));
+    assert_eq!(in_force(&settings), (vec![0], 0));
+    assert!(matches!(scene.toggle_mirror(&mut settings, cube), Err(Refusal::Uneven(_))));
+    assert_eq!(scene.toggle_mirror(&mut settings, MirrorPlace { node: 9, primitive: 0 }), Err(Refusal::Missing));
+    assert_eq!(in_force(&Mirrors { mode: MirrorMode::Off, ..settings.clone() }), (vec![], 0));
+    // What cannot be a mirror is refused also where the settings have it from elsewhere.
+    let foreign = Mirrors { edits: [(cube, true)].into(), ..Mirrors::default() };
+    assert_eq!(in_force(&foreign), (vec![1], 1));
+    assert_eq!(scene.toggle_mirror(&mut settings, sheet), Ok(true));
+    assert_eq!(scene.toggle_mirror(&mut settings, floor), Ok(false));
+    assert_eq!(settings, Mirrors::default(), "nothing is left of it");
 }

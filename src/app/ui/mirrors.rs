@@ -37,8 +37,8 @@ pub fn mirrors(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
         field(ui, "Bounces", tip, |ui| ui.add(slider(&mut settings.bounces, 1..=MAX_BOUNCES)));
     });
     ui.horizontal(|ui| {
-        style::tight(ui);
         ui.label(RichText::new("Past the last").color(style::WEAK));
+        style::tight(ui);
         for last in LastBounce::ALL {
             let response = ui.selectable_label(settings.last == last, capital(last.name()));
             if response.on_hover_text(capital(last.about())).clicked() {
@@ -51,16 +51,20 @@ pub fn mirrors(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
     let tip = "Reflections of fewer pixels are not drawn: their mirrors are grey";
     field(ui, "Least pixels", tip, |ui| ui.add(number(&mut settings.least_pixels).range(0..=1_000_000).speed(5.0)));
     if let Some(plan) = view.plan {
-        explain(ui, cost(plan));
+        let names: Vec<_> = plan.views.iter().take(MOST_NAMED).map(|view| view.name.as_str()).collect();
+        explain(ui, cost(plan)).on_hover_text(names.join("\n"));
         bits(ui, plan.budget);
     }
     let key = crate::app::keys::key_of(crate::app::keys::Command::MakeMirrors).unwrap_or_default();
-    ui.toggle_value(&mut panel.makes_mirrors, format!("Make mirrors by clicks ({key})"))
+    ui.checkbox(&mut panel.makes_mirrors, format!("Clicks make mirrors ({key})"))
         .on_hover_text("While this is on, a click on a flat surface of the picture makes it a mirror, and a mirror none");
     if let Some(scene) = view.scene {
         list(ui, settings, scene);
     }
 }
+
+/// Views that are named where the mouse rests.
+const MOST_NAMED: usize = 30;
 
 /// The views drawn, beside Kilgard's worst case.
 fn cost(plan: &FramePlan) -> String {
@@ -68,9 +72,10 @@ fn cost(plan: &FramePlan) -> String {
     if reflections.mirrors == 0 {
         return "No mirror is drawn here: one view.".into();
     }
+    let views = plan.views.len();
     let mut words = format!(
-        "{} views drawn, of {} at worst for {} mirrors and {} bounces (Kilgard).",
-        plan.views.len(),
+        "{views} view{} drawn, of {} at worst for {} mirrors and {} bounces (Kilgard).",
+        if views == 1 { "" } else { "s" },
         reflections.worst_case,
         reflections.mirrors,
         reflections.bounces
@@ -84,16 +89,17 @@ fn cost(plan: &FramePlan) -> String {
 /// Who owns a bit of the stencil: a letter for it, a word, and a colour.
 type Owner = (&'static str, &'static str, Color32);
 
-const COUNT: Owner = ("c", "shadow count", Color32::from_rgb(0x2d, 0x4a, 0x5c));
-
 fn owner(budget: BitBudget, bit: u32) -> Owner {
     let has = |mask: u8| mask >> bit & 1 == 1;
     [
         (budget.mirror_mask, ("M", "mirror level", Color32::from_rgb(0x7a, 0x55, 0x1e))),
         (budget.beyond_mask, ("B", "beyond the light's bounds", Color32::from_rgb(0x5d, 0x3a, 0x6b))),
         (budget.verdict_mask, ("V", "shadowed by a batch before", Color32::from_rgb(0x70, 0x36, 0x30))),
-        // Lights that are not counted borrow bits of the count.
-        (budget.count_mask, COUNT),
+        (
+            budget.count_mask & budget.points_mask,
+            ("s", "shadow count and single points, in turn", Color32::from_rgb(0x30, 0x5a, 0x50)),
+        ),
+        (budget.count_mask, ("c", "shadow count", Color32::from_rgb(0x2d, 0x4a, 0x5c))),
         (budget.points_mask, ("p", "points of lights", Color32::from_rgb(0x36, 0x5c, 0x3a))),
     ]
     .into_iter()
@@ -131,7 +137,10 @@ fn list(ui: &mut Ui, settings: &mut Mirrors, scene: &Scene) {
         explain(ui, "This scene has no mirrors.");
     }
     let mut toggled = None;
-    egui::ScrollArea::vertical().id_salt("mirrors").max_height(180.0).auto_shrink([false, true]).show(ui, |ui| {
+    // Within the panel's own scrolling it would shrink to the least height otherwise.
+    let height = (mirrors.len() as f32 * 26.0).min(208.0);
+    let rows = egui::ScrollArea::vertical().id_salt("mirrors").max_height(height).min_scrolled_height(height);
+    rows.auto_shrink([false, true]).show(ui, |ui| {
         for mirror in &mirrors {
             let place = place_of(mirror);
             let marked = scene.mirrors.iter().any(|mirror| place_of(mirror) == place);
