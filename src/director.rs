@@ -77,7 +77,7 @@ pub fn stage(settings: &Settings, scene: &Scene, capabilities: &Capabilities) ->
 #[must_use]
 pub fn frames(settings: &Settings) -> u32 {
     // Exact values and false colours have no mean.
-    let one_frame = matches!(settings.show, Show::Stencil | Show::Shadow | Show::Overflow | Show::Cases | Show::Bounds);
+    let one_frame = !matches!(settings.show, Show::Final | Show::Volumes | Show::Wireframe);
     if one_frame { 1 } else { settings.lighting.accumulate.clamp(1, MAX_FRAMES) }
 }
 
@@ -144,7 +144,7 @@ pub fn plan(
     let mut frame = Frame::new(settings, scene, pose, camera, capabilities);
     frame.plan.gather = gather;
     let whole = frame.whole();
-    if frame.plan.views.len() > 1 || matches!(settings.show, Show::Surfaces | Show::Views) {
+    if frame.plan.views.len() > 1 || matches!(settings.show, Show::Surfaces | Show::Views | Show::Birdseye) {
         if !frame.draw_reflections() {
             frame.finish();
         }
@@ -244,7 +244,7 @@ pub fn plan(
             frame.extend(transparent);
             frame.finish();
         }
-        Show::Surfaces | Show::Views => {}
+        Show::Surfaces | Show::Views | Show::Birdseye => {}
     }
     frame.plan
 }
@@ -271,7 +271,10 @@ struct Frame<'a> {
 
 impl<'a> Frame<'a> {
     fn new(settings: &'a Settings, scene: &'a Scene, pose: &'a Pose, camera: Camera, capabilities: &'a Capabilities) -> Self {
-        let exact_values = matches!(settings.show, Show::Shadow | Show::Stencil | Show::Overflow | Show::Surfaces | Show::Views);
+        let exact_values = matches!(
+            settings.show,
+            Show::Shadow | Show::Stencil | Show::Overflow | Show::Surfaces | Show::Views | Show::Birdseye
+        );
         let each_sample = settings.technique != Technique::Wide || capabilities.wide_four_samples;
         let samples = if exact_values || !capabilities.four_samples || !each_sample { 1 } else { settings.samples };
         let mut notes: Vec<_> =

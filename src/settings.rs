@@ -276,6 +276,8 @@ pub enum Show {
     Views,
     /// Every surface in a colour that no other has, exact.
     Surfaces,
+    /// From above: the rooms that mirrors make, and what is seen of each.
+    Birdseye,
 }
 
 named! {
@@ -314,7 +316,7 @@ named! {
 
 impl Show {
     /// Everything that can be shown, in the order people see them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Final,
         Self::Stencil,
         Self::Shadow,
@@ -325,6 +327,7 @@ impl Show {
         Self::Wireframe,
         Self::Views,
         Self::Surfaces,
+        Self::Birdseye,
     ];
 
     /// The name on the command line and in files.
@@ -341,6 +344,7 @@ impl Show {
             Self::Wireframe => "wireframe",
             Self::Views => "views",
             Self::Surfaces => "surfaces",
+            Self::Birdseye => "birdseye",
         }
     }
 
@@ -366,6 +370,7 @@ impl Show {
             Self::Surfaces => {
                 "every surface in a colour of its own, another in each mirror: exact values, black where nothing is"
             }
+            Self::Birdseye => "from above: the rooms that mirrors make, where they seem to stand, and what is seen of each",
         }
     }
 
@@ -374,7 +379,7 @@ impl Show {
     pub const fn looks_at_light(self) -> bool {
         match self {
             Self::Stencil | Self::Shadow | Self::Overflow | Self::Volumes | Self::Cases | Self::Bounds => true,
-            Self::Final | Self::Wireframe | Self::Views | Self::Surfaces => false,
+            Self::Final | Self::Wireframe | Self::Views | Self::Surfaces | Self::Birdseye => false,
         }
     }
 }

@@ -6,14 +6,17 @@
 
 use super::views::Outlook;
 use super::{Frame, MID_GREY, rounds};
-use crate::frame::stencil::StencilState;
+use crate::frame::plan::{View, Window};
+use crate::frame::state::Winding;
+use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{Clear, Target};
 use crate::scene::AlphaMode;
 use crate::settings::{Show, Texturing};
+use crate::techniques::above::above_rooms;
 use crate::techniques::mirrors::{self, Cover};
 use crate::techniques::own_bits::{Round, Shining};
 use crate::techniques::surfaces::{self, SurfaceGroup, Tint};
-use crate::techniques::{show, surfaces as drawn};
+use crate::techniques::{birdseye, bounds, show, surfaces as drawn};
 
 /// One view's surfaces.
 struct Stage {
@@ -55,7 +58,11 @@ impl Frame<'_> {
         let blended = |(_, _, mesh): (_, _, &crate::scene::Mesh)| {
             mesh.primitives.iter().any(|part| self.scene.materials[part.material].alpha == AlphaMode::Blend)
         };
-        lights <= 1 && self.mirrors.all_perfect() && self.may_draw_directly() && !self.scene.instances().any(blended)
+        lights <= 1
+            && !self.unbounded()
+            && self.mirrors.all_perfect()
+            && self.may_draw_directly()
+            && !self.scene.instances().any(blended)
     }
 
     /// The surfaces of the view, apart by what is done with them.
@@ -79,6 +86,10 @@ impl Frame<'_> {
         let (whole, exposure) = (self.whole(), self.plan.exposure);
         let stage = self.stage(self.texturing());
         let is_eye = self.outlook.view == 0;
+        let unbounded = is_eye && self.unbounded();
+        if unbounded {
+            self.draw_unbounded(&stage.open);
+        }
         // The eye's own way of drawing directly asks for counts that are not zero, which in a mirror it cannot.
         let depth_first = direct && is_eye && self.pose.lights.iter().any(|light| light.on && light.shadows);
         if direct {
@@ -97,7 +108,14 @@ impl Frame<'_> {
         let target = if direct { Target::Direct } else { Target::Scene };
         let open = stage.open.iter().map(|(group, _)| drawn::lay(group, whole)).collect();
         self.extend_onto(target, open);
-        self.draw_children(&stage.open, |frame| frame.draw_view(direct), if direct { Cover::Finished } else { Cover::Light });
+        if unbounded {
+            let dimmed = stage.open.iter().filter_map(|(group, child)| self.mirrors.dim(group, &self.plan, *child));
+            let dimmed = dimmed.collect();
+            self.extend(dimmed);
+        } else {
+            let cover = if direct { Cover::Finished } else { Cover::Light };
+            self.draw_children(&stage.open, |frame| frame.draw_view(direct), cover);
+        }
 
         if direct {
             self.light_directly(&stage.plain, depth_first);
@@ -156,6 +174,25 @@ impl Frame<'_> {
         }
     }
 
+    /// Each mirror's view all over the picture, before the room itself (K section 2): the room then covers what it
+    /// covers.
+    fn draw_unbounded(&mut self, open: &[(SurfaceGroup, usize)]) {
+        const DEPTH: Clear = Clear { color: None, depth: Some(0.0), stencil: None, counts: None };
+        for (number, (_, child)) in open.iter().enumerate() {
+            let outer: Outlook = self.look_from(*child);
+            self.used = u8::MAX;
+            if number == 0 {
+                self.push(mirrors::cover(&self.plan.views[*child], Cover::Light));
+            } else {
+                self.clear("clear depth".into(), "One reflection after the other, each over all before it.", DEPTH);
+            }
+            self.draw_view(false);
+            self.outlook = outer;
+        }
+        self.used = u8::MAX;
+        self.clear("clear depth".into(), "The room is drawn over its reflection, which shows where the room leaves it.", DEPTH);
+    }
+
     /// Each mirror's view, where the mirror is seen.
     fn draw_children(&mut self, open: &[(SurfaceGroup, usize)], mut draw: impl FnMut(&mut Self), cover: Cover) {
         for (group, child) in open {
@@ -187,6 +224,7 @@ impl Frame<'_> {
                 self.draw_paths();
                 self.push(show::copy(self.whole()));
             }
+            Show::Birdseye => self.draw_from_above(),
             _ => self.draw_values(),
         }
     }
@@ -216,6 +254,44 @@ impl Frame<'_> {
         let open = stage.open.iter().map(|(group, _)| drawn::lay(group, whole)).collect();
         self.extend(open);
         self.draw_children(&stage.open, Self::draw_paths, Cover::Value(UNSEEN));
+    }
+
+    /// Every view's room where it seems to stand, seen from above; and what the eye sees of each.
+    fn draw_from_above(&mut self) {
+        let (eye, planned) = (self.plan.views[0].camera, self.plan.views.clone());
+        let room = self.scene.bounds(self.pose);
+        let rooms = birdseye::seeming(&planned).iter().fold(room, |all, place| all.union(&room.transformed(place)));
+        let above = above_rooms(self.scene, self.pose, &eye, &rooms);
+        let size = self.plan.size;
+        self.plan.budget = BitBudget::of_bits(self.settings.counting.bits);
+        self.plan.exposure = 1.0;
+        for (number, before) in planned.iter().enumerate() {
+            let camera = match &before.through {
+                Some(window) => self.plan.views[window.parent].camera.reflected(window.plane),
+                None => above.camera,
+            };
+            let through = before.through.clone().map(|window| Window { level: 0, ..window });
+            let winding = if camera.mirrored { Winding::Cw } else { Winding::Ccw };
+            let name = before.name.replacen("eye", "above", 1);
+            self.plan.views[number] = View { winding, through, ..View::of_eye(&name, camera, size) };
+        }
+        self.clear_all(UNSEEN, 0);
+        for number in 0..planned.len() {
+            let view = (number, &self.plan.views[number]);
+            self.outlook = Outlook::new(self.scene, self.pose, view, None);
+            let groups = surfaces::opaque_groups(self.known(), self.view(), size, Texturing::EachLight);
+            let [r, g, b] = path_color(self.view().path());
+            let why = "Every view's room in its colour, where it seems to stand.";
+            let tint = Tint { label: "room", why, color: [r, g, b, 1.0], inside: false };
+            self.extend(drawn::tinted(&groups, &tint, |_| true, self.whole()));
+            if above.cut.is_some() {
+                self.extend(bounds::cut(&groups, self.whole()));
+            }
+        }
+        self.outlook = Outlook::new(self.scene, self.pose, (0, &self.plan.views[0]), None);
+        self.push(show::copy(self.whole()));
+        let strokes = birdseye::strokes((&above, &eye, self.pose), &planned, &self.sights, path_color, size);
+        self.push(bounds::step(strokes, self.whole()));
     }
 
     /// One light's count, or verdict, in every view.
@@ -261,7 +337,7 @@ impl Frame<'_> {
 
     /// All bits but the mirrors', in the view's pixels.
     pub(super) fn reset_view(&mut self, label: &str, why: &str, value: u8) {
-        if self.outlook.view == 0 {
+        if self.plan.budget.mirror_mask == 0 || self.outlook.view == 0 {
             self.clear(label.into(), why, Clear { color: None, depth: None, stencil: Some(value), counts: None });
         } else {
             self.push(mirrors::reset(label.into(), why, self.plan.budget, value, self.whole()));

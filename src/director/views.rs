@@ -10,7 +10,7 @@ use crate::geometry::planar::height;
 use crate::geometry::sight::{Sight, worst_case};
 use crate::geometry::{Aabb, Body};
 use crate::scene::{Pose, Scene};
-use crate::settings::Show;
+use crate::settings::{MirrorMode, Show};
 use crate::techniques;
 use crate::techniques::culling::Stalls;
 use crate::techniques::mirrors::Mirrors;
@@ -87,13 +87,16 @@ impl Frame<'_> {
         std::mem::replace(&mut self.outlook, outlook)
     }
 
+    /// Whether reflections are drawn wherever they fall.
+    pub(super) fn unbounded(&self) -> bool {
+        let shows_light = matches!(self.settings.show, Show::Final | Show::Volumes | Show::Wireframe);
+        self.settings.mirrors.mode == MirrorMode::Unbounded && shows_light
+    }
+
     /// Plans a view for each mirror that is seen, and for each that is seen in that, as far as the bounces go; and takes
     /// the stencil's bits that tell them apart.
     pub(super) fn plan_views(&mut self) {
-        let shows_mirrors = match self.settings.show {
-            Show::Final | Show::Stencil | Show::Shadow | Show::Volumes | Show::Wireframe | Show::Surfaces | Show::Views => true,
-            Show::Overflow | Show::Cases | Show::Bounds => false,
-        };
+        let shows_mirrors = !matches!(self.settings.show, Show::Overflow | Show::Cases | Show::Bounds);
         let (mirrors, notes) = Mirrors::new(self.scene, self.pose, &self.settings.mirrors);
         self.plan.notes.extend(notes);
         if mirrors.is_empty() || !shows_mirrors {
@@ -118,7 +121,9 @@ impl Frame<'_> {
         counted.worst_case = worst_case(counted.mirrors, counted.bounces);
         counted.too_small = too_small;
         let deepest = self.plan.views.iter().map(|view| view.path().len()).max().unwrap_or(0);
-        if deepest > 0 {
+        if self.unbounded() {
+            self.plan.notes.push("reflections are not bounded to their mirrors".into());
+        } else if deepest > 0 {
             self.plan.budget = self.plan.budget.with_mirrors(u32::try_from(deepest).unwrap_or(u32::MAX));
             let budget = self.plan.budget;
             for view in &mut self.plan.views {
@@ -145,6 +150,7 @@ impl Grower<'_, '_> {
         if sight.bounces >= frame.mirrors.bounces() as usize {
             return;
         }
+        let unbounded = frame.unbounded();
         let slack = SLACK * f64::from(frame.scene.bounds(frame.pose).radius());
         let mut found = Vec::new();
         for (number, mirror, posed) in frame.mirrors.posed() {
@@ -157,10 +163,14 @@ impl Grower<'_, '_> {
                 self.too_small += 1;
                 continue;
             }
-            let Some(rect) = reflected.sight.rect() else { continue };
+            let mut seen = reflected.sight;
+            if unbounded {
+                seen.outline.clone_from(&sight.outline);
+            }
+            let Some(rect) = seen.rect() else { continue };
             let path: Vec<_> = seen_from.path().iter().copied().chain([number]).collect();
-            let window = Window { parent: at, path, surface, plane: reflected.sight.near, slack, level: 0 };
-            found.push((reflected.sight, rect, window, format!("{} > {}", seen_from.name, mirror.name)));
+            let window = Window { parent: at, path, surface, plane: seen.near, slack, level: 0 };
+            found.push((seen, rect, window, format!("{} > {}", seen_from.name, mirror.name)));
         }
         for (sight, rect, window, name) in found {
             let frame = &mut *self.frame;

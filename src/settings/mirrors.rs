@@ -60,7 +60,7 @@ impl Mirrors {
     pub fn most_bounces(&self) -> u32 {
         match self.mode {
             MirrorMode::Off => 0,
-            MirrorMode::Stencil => 1,
+            MirrorMode::Unbounded | MirrorMode::Stencil => 1,
             MirrorMode::Recursive => self.bounces.clamp(1, MAX_BOUNCES),
         }
     }
@@ -72,6 +72,9 @@ impl Mirrors {
 pub enum MirrorMode {
     /// Not at all: mirrors are surfaces as others.
     Off,
+    /// One reflection, with nothing to keep it within the mirror (K section 2): what is reflected shows beside it too,
+    /// and what stands behind it. Exact values are shown as with [`Self::Stencil`].
+    Unbounded,
     /// One reflection, bounded by the stencil (K section 3); mirrors seen in a mirror are grey.
     Stencil,
     /// Mirrors in mirrors (K section 3, "recursive reflections").
@@ -81,13 +84,14 @@ pub enum MirrorMode {
 
 impl MirrorMode {
     /// Every one, in the order people see them.
-    pub const ALL: [Self; 3] = [Self::Off, Self::Stencil, Self::Recursive];
+    pub const ALL: [Self; 4] = [Self::Off, Self::Unbounded, Self::Stencil, Self::Recursive];
 
     /// The name on the command line and in files.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Off => "off",
+            Self::Unbounded => "unbounded",
             Self::Stencil => "stencil",
             Self::Recursive => "recursive",
         }
@@ -98,6 +102,7 @@ impl MirrorMode {
     pub const fn about(self) -> &'static str {
         match self {
             Self::Off => "mirrors are ordinary surfaces",
+            Self::Unbounded => "one reflection without the stencil: it shows beside the mirror too (Kilgard 2, figure 3)",
             Self::Stencil => "one reflection, bounded by the stencil; mirrors in a mirror are grey (Kilgard 3)",
             Self::Recursive => "mirrors in mirrors, each view bounded by the stencil (Kilgard 3)",
         }

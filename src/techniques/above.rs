@@ -49,8 +49,8 @@ pub struct Above {
 /// `light` reaches is in the picture too, unless that is much more than the rest.
 #[must_use]
 pub fn above(scene: &Scene, pose: &Pose, eye: &Camera, light: usize) -> Above {
-    let content = content(scene, pose, eye.eye);
-    let (mut min, mut max) = (content.min.as_dvec3(), content.max.as_dvec3());
+    let framed = content(scene, pose, eye.eye);
+    let (mut min, mut max) = (framed.min.as_dvec3(), framed.max.as_dvec3());
     let level = DVec3::new(1.0, 0.0, 1.0);
     if let Some(light) = pose.lights.get(light).filter(|light| light.range.is_finite()) {
         let most = (max - min) * (MOST - 1.0) / 2.0 * level;
@@ -59,6 +59,23 @@ pub fn above(scene: &Scene, pose: &Pose, eye: &Camera, light: usize) -> Above {
             max.max((light.position + light.range * level).min(max + most)),
         );
     }
+    framing(scene, pose, eye, framed, [min, max])
+}
+
+/// The view from above on a scene and on where it is reflected: all of `rooms` is in the picture, as far as it is
+/// not much farther away than the scene is large.
+#[must_use]
+pub fn above_rooms(scene: &Scene, pose: &Pose, eye: &Camera, rooms: &Aabb) -> Above {
+    /// Times the scene's own size.
+    const FARTHEST: f64 = 2.0;
+    let content = content(scene, pose, eye.eye).union(&scene.bounds(pose));
+    let (min, max) = (content.min.as_dvec3(), content.max.as_dvec3());
+    let room = (max - min) * DVec3::new(FARTHEST, 0.0, FARTHEST);
+    let [low, high] = [rooms.min.as_dvec3().max(min - room), rooms.max.as_dvec3().min(max + room)];
+    framing(scene, pose, eye, content, [min.min(low), max.max(high)])
+}
+
+fn framing(scene: &Scene, pose: &Pose, eye: &Camera, content: Aabb, [min, max]: [DVec3; 2]) -> Above {
     let middle = (min + max) / 2.0;
     // Never flat: a scene may be a single point.
     let half = ((max - min) / 2.0 * (1.0 + MARGIN)).max(DVec3::splat(0.05));

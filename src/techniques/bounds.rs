@@ -68,7 +68,7 @@ pub fn strokes(scope: &Scope<'_>) -> Vec<Stroke> {
 }
 
 /// From the world to the picture from above.
-struct Map<'a> {
+pub(super) struct Map<'a> {
     scope: &'a Scope<'a>,
     clip_from_world: glam::DMat4,
     /// Between these heights everything is that is framed.
@@ -79,7 +79,7 @@ struct Map<'a> {
 }
 
 impl<'a> Map<'a> {
-    fn new(scope: &'a Scope<'a>) -> Self {
+    pub fn new(scope: &'a Scope<'a>) -> Self {
         let Above { camera, content, .. } = scope.above;
         let reach = camera.eye.distance(content.min.as_dvec3()) * 2.0;
         let (low, high) = (f64::from(content.min.y), f64::from(content.max.y));
@@ -87,7 +87,7 @@ impl<'a> Map<'a> {
     }
 
     /// A place's pixel; none at the height of the view's eye and above.
-    fn at(&self, place: DVec3) -> Option<[f32; 2]> {
+    pub fn at(&self, place: DVec3) -> Option<[f32; 2]> {
         let clip = self.clip_from_world * place.extend(1.0);
         let size = DVec2::new(self.scope.size[0].into(), self.scope.size[1].into());
         let at = (DVec2::new(clip.x, -clip.y) / clip.w * 0.5 + 0.5) * size;
@@ -112,7 +112,7 @@ impl<'a> Map<'a> {
     }
 
     /// Where a ray of the eye leaves the layer in which everything is.
-    fn end(&self, towards: DVec3) -> DVec3 {
+    pub fn end(&self, towards: DVec3) -> DVec3 {
         let eye = self.scope.eye.eye;
         let way = (towards - eye).normalize_or_zero();
         let out = if way.y < 0.0 { (self.low - eye.y) / way.y } else { (self.high - eye.y) / way.y };
@@ -135,7 +135,7 @@ impl<'a> Map<'a> {
         hull(&mut pixels).into_iter().map(|corner| corner.as_vec2().to_array()).collect()
     }
 
-    fn frustum(&self, strokes: &mut Vec<Stroke>) {
+    pub fn frustum(&self, strokes: &mut Vec<Stroke>) {
         let Scope { eye, size, scissor, .. } = *self.scope;
         let whole = [0, 0, size[0], size[1]];
         let white = |alpha| with_alpha(EYE, alpha);
@@ -228,7 +228,7 @@ fn circle(middle: DVec3, right: DVec3, up: DVec3) -> impl Iterator<Item = DVec3>
 }
 
 /// A disc with a dark rim.
-fn dot(at: [f32; 2], radius: f32, color: [f32; 3]) -> Stroke {
+pub(super) fn dot(at: [f32; 2], radius: f32, color: [f32; 3]) -> Stroke {
     let points = (0..24).map(|step| {
         let (sin, cos) = (std::f32::consts::TAU * step as f32 / 24.0).sin_cos();
         [at[0] + radius * cos, at[1] + radius * sin]

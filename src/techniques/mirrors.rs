@@ -186,18 +186,38 @@ impl Mirrors {
         let (from, to) = (parent(plan, child), &plan.views[child]);
         let stencil = StencilState::through_mirror(plan.budget, to.level(), from.level());
         let mut draw = Draw { stencil_reference: to.level(), ..group.depth_draw(AGAIN, stencil, to.rect) };
-        let mirror = group.kind.mirror.unwrap_or_default();
-        let left = self.left(to.path().len());
-        let why = if dims && !(self.is_perfect(mirror) && self.tint(mirror) == Vec3::ONE && left >= 1.0) {
-            draw.program = Program::Reflected;
-            draw.look = Look { mirror: group.kind.look.mirror, ..Look::default() };
-            draw.state.color = Some(Blend::Multiply);
-            draw.constant = (self.tint(mirror) * left).extend(self.straight(mirror)).to_array();
+        let why = if dims && self.multiply(group, to, &mut draw) {
             "The mirror's depth and tag are as they were before; the reflection is multiplied with how much the mirror shows."
         } else {
             "The mirror's depth and tag are as they were before."
         };
         Step { view: parent_number(to), ..step(format!("untag {}", to.name), why, draw) }
+    }
+}
+
+impl Mirrors {
+    /// The mirror's surface over a reflection that nothing bounds: how much of it the mirror shows.
+    #[must_use]
+    pub fn dim(&self, group: &SurfaceGroup, plan: &FramePlan, child: usize) -> Option<Step> {
+        let to = &plan.views[child];
+        let mut draw = group.depth_draw(Depth::SAME_SURFACE, StencilState::IGNORE, to.rect);
+        let why = "Multiplies the reflection with how much of it the mirror shows.";
+        self.multiply(group, to, &mut draw).then(|| step(format!("dim {}", to.name), why, draw))
+    }
+
+    /// Makes a draw of the mirror's surface multiply the reflection with how much of it the mirror shows; false where
+    /// that is all of it, just as it is.
+    fn multiply(&self, group: &SurfaceGroup, to: &View, draw: &mut Draw) -> bool {
+        let mirror = group.kind.mirror.unwrap_or_default();
+        let left = self.left(to.path().len());
+        if self.is_perfect(mirror) && self.tint(mirror) == Vec3::ONE && left >= 1.0 {
+            return false;
+        }
+        draw.program = Program::Reflected;
+        draw.look = Look { mirror: group.kind.look.mirror, ..Look::default() };
+        draw.state.color = Some(Blend::Multiply);
+        draw.constant = (self.tint(mirror) * left).extend(self.straight(mirror)).to_array();
+        true
     }
 }
 
@@ -239,6 +259,7 @@ pub fn keep_in_view(step: &mut Step, view: usize, views: &[View], budget: BitBud
     step.view = view;
     if let Action::Draw(draw) = &mut step.action
         && view > 0
+        && budget.mirror_mask != 0
         && matches!(draw.target, Target::Scene | Target::Direct | Target::Counts)
     {
         let stencil = draw.state.stencil.in_view(budget);

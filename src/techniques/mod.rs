@@ -11,6 +11,7 @@
 pub mod above;
 mod auto;
 pub mod beam;
+pub mod birdseye;
 pub mod bounds;
 pub mod cases;
 pub mod counting;

@@ -15,6 +15,7 @@ use crate::settings::{LastBounce, MAX_BOUNCES, MirrorMode, MirrorPlace, Mirrors}
 const fn title(mode: MirrorMode) -> &'static str {
     match mode {
         MirrorMode::Off => "No mirrors",
+        MirrorMode::Unbounded => "Unbounded",
         MirrorMode::Stencil => "One bounce",
         MirrorMode::Recursive => "Mirrors in mirrors",
     }

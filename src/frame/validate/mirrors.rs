@@ -10,7 +10,7 @@ use crate::frame::step::{Draw, DrawSet, Program, Target};
 pub(super) fn check(plan: &FramePlan, view: usize, draw: &Draw, state: &mut Progress) -> Result<(), &'static str> {
     let mask = plan.budget.mirror_mask;
     let stencil = &draw.state.stencil;
-    if !matches!(draw.target, Target::Scene | Target::Direct | Target::Counts) {
+    if mask == 0 || !matches!(draw.target, Target::Scene | Target::Direct | Target::Counts) {
         return check_draw(plan, draw, state);
     }
     if stencil.writes() && stencil.write_mask & mask != 0 {
