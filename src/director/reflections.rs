@@ -105,15 +105,10 @@ impl Frame<'_> {
             let grey = drawn::ambient(&stage.grey, whole);
             self.extend_grey(&stage.grey, grey);
         }
-        let target = if direct { Target::Direct } else { Target::Scene };
-        let open = stage.open.iter().map(|(group, _)| drawn::lay(group, whole)).collect();
-        self.extend_onto(target, open);
-        if unbounded {
-            let dimmed = stage.open.iter().filter_map(|(group, child)| self.mirrors.dim(group, &self.plan, *child));
-            let dimmed = dimmed.collect();
-            self.extend(dimmed);
-        } else {
-            let cover = if direct { Cover::Finished } else { Cover::Light };
+        if !unbounded {
+            let (target, cover) = if direct { (Target::Direct, Cover::Finished) } else { (Target::Scene, Cover::Light) };
+            let open = stage.open.iter().map(|(group, _)| drawn::lay(group, whole)).collect();
+            self.extend_onto(target, open);
             self.draw_children(&stage.open, |frame| frame.draw_view(direct), cover);
         }
 
@@ -174,23 +169,24 @@ impl Frame<'_> {
         }
     }
 
-    /// Each mirror's view all over the picture, before the room itself (K section 2): the room then covers what it
-    /// covers.
+    /// Each mirror's view all over the picture, before the room itself (K section 2), and then the mirrors' depth: the
+    /// room covers what lies behind it, and what is reflected shows wherever nothing does.
     fn draw_unbounded(&mut self, open: &[(SurfaceGroup, usize)]) {
-        const DEPTH: Clear = Clear { color: None, depth: Some(0.0), stencil: None, counts: None };
         for (number, (_, child)) in open.iter().enumerate() {
             let outer: Outlook = self.look_from(*child);
             self.used = u8::MAX;
             if number == 0 {
                 self.push(mirrors::cover(&self.plan.views[*child], Cover::Light));
-            } else {
-                self.clear("clear depth".into(), "One reflection after the other, each over all before it.", DEPTH);
             }
             self.draw_view(false);
             self.outlook = outer;
         }
         self.used = u8::MAX;
-        self.clear("clear depth".into(), "The room is drawn over its reflection, which shows where the room leaves it.", DEPTH);
+        let whole = self.whole();
+        self.extend(open.iter().map(|(group, _)| drawn::lay(group, whole)).collect());
+        let dimmed = open.iter().filter_map(|(group, child)| self.mirrors.dim(group, &self.plan, *child));
+        let dimmed = dimmed.collect();
+        self.extend(dimmed);
     }
 
     /// Each mirror's view, where the mirror is seen.
