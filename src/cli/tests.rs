@@ -159,6 +159,11 @@ fn the_windows_saved_settings_stay_unless_a_scene_is_named() {
         camera: CameraChoice::Named("top".into()),
         time: 3.0,
         lights: BTreeMap::from([(0, LightEdit { on: Some(false), ..LightEdit::default() })]),
+        mirrors: Mirrors {
+            bounces: 2,
+            edits: BTreeMap::from([(MirrorPlace { node: 1, primitive: 0 }, true)]),
+            ..Mirrors::default()
+        },
         ..Settings::default()
     };
     let start = |line: &str| match command(line).unwrap() {
@@ -168,7 +173,9 @@ fn the_windows_saved_settings_stay_unless_a_scene_is_named() {
     assert_eq!(start("obscura"), saved);
     assert_eq!(start("obscura --samples 4"), Settings { samples: 4, ..saved.clone() });
     let cubes = SceneChoice::Stock("cubes".into());
-    assert_eq!(start("obscura cubes"), Settings { scene: cubes, technique: Technique::ZPass, ..Settings::default() });
+    let mirrors = Mirrors { bounces: 2, ..Mirrors::default() };
+    let fresh = Settings { scene: cubes, technique: Technique::ZPass, mirrors, ..Settings::default() };
+    assert_eq!(start("obscura cubes"), fresh);
 }
 
 #[test]
