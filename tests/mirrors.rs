@@ -345,6 +345,9 @@ fn a_ray_meets_the_first_surface_that_is_seen_from_there() {
     assert_eq!(node(DVec3::new(0.3, -3.0, 0.2), DVec3::Y, 0.1), sheet, "through the floor's back to the sheet's");
     assert_eq!(node(DVec3::new(4.0, -3.0, 4.0), DVec3::Y, 0.1), None, "through the floor's back");
     assert_eq!(node(above, DVec3::Y, 0.1), None);
+    let (along, slanted) = (DVec3::new(0.8, 2.05, 0.0), DVec3::new(1.0, -0.3, 0.0));
+    assert_eq!(node(along, slanted, 0.01), sheet, "the cube behind it comes later in the scene");
+    assert_eq!(node(along, slanted, 1.0), cube);
     let over_cube = DVec3::new(5.2, 6.0, 0.1);
     assert_eq!(node(over_cube, DVec3::NEG_Y, 0.1), cube);
     assert_eq!(node(over_cube, DVec3::NEG_Y, 3.5), floor, "its inside is not seen");
