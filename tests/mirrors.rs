@@ -321,18 +321,19 @@ fn a_bent_mirror_is_none_while_it_is_bent() {
 }
 
 /// A floor, a sheet over its middle drawn from both sides, and beside that a solid cube, turned inside out by its node.
-fn floor_sheet_and_cube() -> Scene {
+fn floor_sheet_and_cube() -> Build {
     let mut build = Build::new();
     build.floor(0.0, 10.0);
     let (sheet, cube) = (build.mesh(square(1)), build.mesh(cube(0)));
     build.place(sheet, DVec3::Y * 2.0, DVec3::ONE);
     build.place(cube, DVec3::new(5.0, 2.0, 0.0), DVec3::new(-1.0, 1.0, 1.0));
-    build.0
+    build
 }
 
 #[test]
 fn a_ray_meets_the_first_surface_that_is_seen_from_there() {
-    let scene = floor_sheet_and_cube();
+    let mut build = floor_sheet_and_cube();
+    let scene = build.0.clone();
     let pose = still(&scene, 0.0);
     let node = |eye: DVec3, direction: DVec3, nearest: f64| {
         surface_at(&scene, &pose, eye, direction, nearest).map(|MirrorPlace { node, primitive }| (node, primitive))
@@ -352,11 +353,18 @@ fn a_ray_meets_the_first_surface_that_is_seen_from_there() {
     assert_eq!(node(over_cube, DVec3::NEG_Y, 0.1), cube);
     assert_eq!(node(over_cube, DVec3::NEG_Y, 3.5), floor, "its inside is not seen");
     assert_eq!(node(DVec3::new(5.2, 2.0, 0.1), DVec3::NEG_Y, 0.01), floor, "nor from within");
+    // A room about it all, later in the scene, with walls behind everything.
+    let room = build.mesh(common::cube(1));
+    build.place(room, DVec3::ZERO, DVec3::splat(30.0));
+    let scene = build.0;
+    let pose = still(&scene, 0.0);
+    let met = |direction| surface_at(&scene, &pose, above, direction, 0.1).map(|place| place.node);
+    assert_eq!((met(DVec3::NEG_Y), met(DVec3::Y)), (Some(1), Some(3)));
 }
 
 #[test]
 fn surfaces_become_mirrors_and_mirrors_surfaces() {
-    let mut scene = floor_sheet_and_cube();
+    let mut scene = floor_sheet_and_cube().0;
     let [floor, sheet, cube] = [0, 1, 2].map(|node| MirrorPlace { node, primitive: 0 });
     scene.mirrors = vec![obscura::scene::Mirror::of(&scene, 1, 0, Reflective::default()).unwrap()];
     let mut settings = Mirrors::default();
