@@ -250,7 +250,7 @@ fn bad_input_is_one_line_and_leaves_nothing() {
         (&["cubes", "--time", "-0.5"], "time"),
         (&["cubes", "--time", "nan"], "time"),
         (&["cubes", "--exposure", "inf"], "exposure"),
-        (&["barbershop", "--mirrors", "magic"], "there are: off, stencil, recursive"),
+        (&["barbershop", "--mirrors", "magic"], "there are: off, unbounded, stencil, recursive"),
         (&["barbershop", "--bounces", "0"], "1 to 8"),
         (&["barbershop", "--bounces", "9"], "1 to 8"),
         (&["barbershop", "--last-bounce", "magic"], "there are: grey, fade"),

@@ -230,6 +230,8 @@ fn mirrors_are_chosen_and_told() {
     let mirrors = |harness: &Harness<'_, Bench>| settings(harness).mirrors;
     click(&mut harness, "One bounce");
     assert_eq!(mirrors(&harness), Mirrors { mode: MirrorMode::Stencil, ..default.clone() });
+    click(&mut harness, "Unbounded");
+    assert_eq!(mirrors(&harness), Mirrors { mode: MirrorMode::Unbounded, ..default.clone() });
     click(&mut harness, "No mirrors");
     assert_eq!(mirrors(&harness), Mirrors { mode: MirrorMode::Off, ..default.clone() });
     click(&mut harness, "Mirrors in mirrors");
