@@ -189,11 +189,15 @@ pub fn worst_case(mirrors: usize, bounces: u32) -> u64 {
     paths.fold(0u64, u64::saturating_add).saturating_mul(mirrors).saturating_add(1)
 }
 
-/// The lines of a polygon's edges, `a x + b y + c >= 0` within, (a, b) unit.
+/// Pixels: corners closer than this are one, for the edge between them may have any direction. A corner that two polygons
+/// share has a place of its own in each, the last digits apart.
+const ONE_CORNER: f64 = 1e-3;
+
+/// The lines of a polygon's edges, `a x + b y + c >= 0` within, (a, b) unit. Edges that hardly are any bound nothing.
 fn edges(polygon: &[DVec2]) -> impl Iterator<Item = DVec3> {
     polygon.iter().enumerate().filter_map(|(index, &a)| {
         let along = polygon[(index + 1) % polygon.len()] - a;
-        let inward = along.perp().try_normalize()?;
+        let inward = along.perp().try_normalize().filter(|_| along.length() > ONE_CORNER)?;
         Some(inward.extend(-inward.dot(a)))
     })
 }
@@ -208,7 +212,13 @@ fn widened(hull: &[DVec2], room: f64) -> Option<Vec<DVec2>> {
     // The edges moved outward meet farther out than their own way, in sharp corners much farther.
     let (low, high) = (low - 4.0 * room, high + 4.0 * room);
     let box_about = vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-    let outline = edges(hull).fold(box_about, |outline, line| clip::cut(&outline, line + DVec3::Z * room));
+    let mut outline = edges(hull).fold(box_about, |outline, line| clip::cut(&outline, line + DVec3::Z * room));
+    outline.dedup_by(|next, corner| next.distance(*corner) <= ONE_CORNER);
+    if let [first, .., last] = outline[..]
+        && first.distance(last) <= ONE_CORNER
+    {
+        outline.pop();
+    }
     Some(clip::simplified(outline, Sight::CORNERS))
 }
 
@@ -307,6 +317,26 @@ mod tests {
                 &Aabb { min: Vec3::new(0.0, -1.0, -4.0), max: Vec3::new(5.0, 1.0, -3.0) },
                 &DAffine3::IDENTITY
             )));
+        }
+    }
+
+    /// As the clipper leaves them: corners on the edges, and each corner twice, some last digits apart.
+    #[test]
+    fn an_outline_holds_corners_that_nearly_coincide() {
+        let mut random = fastrand::Rng::with_seed(11);
+        for _ in 0..2000 {
+            let corner = |random: &mut fastrand::Rng| DVec2::new(random.f64() * 60.0, random.f64() * 40.0);
+            let [a, b, c] = [corner(&mut random), corner(&mut random), corner(&mut random)];
+            let (on_ab, on_bc) = (a + (b - a) * random.f64(), b + (c - b) * random.f64());
+            let points = [a, b, c, on_ab, on_bc];
+            let near = |point: DVec2, random: &mut fastrand::Rng| {
+                point * (1.0 + DVec2::new(random.f64() - 0.5, random.f64() - 0.5) * 8.0 * f64::EPSILON)
+            };
+            let mut given: Vec<_> = points.iter().flat_map(|&point| [point, near(point, &mut random)]).collect();
+            let outline = widened(&clip::hull(&mut given), 0.25).unwrap();
+            for (line, point) in edges(&outline).flat_map(|line| points.map(|point| (line, point))) {
+                assert!(line.dot(point.extend(1.0)) > 0.2, "{point} of {points:?} is not in {outline:?}");
+            }
         }
     }
 
