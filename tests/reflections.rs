@@ -48,11 +48,11 @@ impl Room {
         pose::pose(self.scene(), 0.0, self.scene().default_animation, &BTreeMap::new())
     }
 
-    fn world(&self, bounces: u32) -> World {
+    fn world(&self) -> World {
         let scene = self.scene();
         let mirrors: Vec<_> =
             self.mirrors.iter().map(|node| Mirror::of(scene, *node, 0, Reflective::default()).unwrap()).collect();
-        World::with_mirrors(scene, &self.pose(), &mirrors, bounces)
+        World::with_mirrors(scene, &self.pose(), &mirrors)
     }
 
     /// Seen from `eye` in the direction `along`, through narrow pixels.
@@ -66,7 +66,7 @@ impl Room {
         let eye = DVec3::from(eye);
         let camera = Camera::look_at(eye, eye + DVec3::from(along), fov, 1.0, 0.1).unwrap();
         let lights = self.pose().lights;
-        let traced = self.world(bounces).trace(&camera, &lights[light..=light], [SIDE; 2], &|_| true).unwrap();
+        let traced = self.world().trace(&camera, &lights[light..=light], [SIDE; 2], bounces, &|_| true).unwrap();
         let at = (SIDE * SIDE / 2) as usize;
         let shown = traced.surfaces.pixels()[at].map(|shown| (traced.surfaces.paths()[shown.path].clone(), shown.instance));
         (shown, traced.verdicts[0].pixels()[at])
@@ -286,7 +286,7 @@ fn a_plain_tracer_takes_the_same_ways_in_random_rooms() {
         let eye = DVec3::new(random.f64() * 8.0 - 4.0, random.f64() * 6.0 - 3.0, random.f64() * 8.0 - 4.0);
         let camera = Camera::look_at(eye, DVec3::new(random.f64(), random.f64(), 0.0), 1.4, 1.5, 0.1).unwrap();
         let most = random.usize(2..=5);
-        let traced = room.world(most as u32).trace(&camera, &room.pose().lights, SIZE, &|_| true).unwrap();
+        let traced = room.world().trace(&camera, &room.pose().lights, SIZE, most as u32, &|_| true).unwrap();
         let triangles = plain(&room);
         let (right, half_height) = (camera.forward.cross(camera.up), (camera.vertical_fov / 2.0).tan());
         for (number, shown) in (0u32..).zip(traced.surfaces.pixels()) {

@@ -9,10 +9,10 @@ use std::path::{Path, PathBuf};
 use common::{Build, Stage, assert_exact, cube, mesh, seen_from, square};
 use glam::DVec3;
 use obscura::cli::VerifyRequest;
-use obscura::frame::Camera;
-use obscura::headless::verify::verify;
+use obscura::frame::{Camera, identity_color};
+use obscura::headless::verify::{Report, verify};
 use obscura::scene::{AlphaMode, PosedLight, Scene, pose, stock};
-use obscura::settings::{SceneChoice, Settings, Technique};
+use obscura::settings::{CameraChoice, Mirrors, SceneChoice, Settings, Show, Technique};
 use obscura::truth::{Verdict, World};
 
 const EXACT: [Technique; 2] = [Technique::ZFail, Technique::ExactZPass];
@@ -214,8 +214,15 @@ fn files(folder: &str) -> Vec<PathBuf> {
 
 /// Random views of one scene, each by the exact techniques: not one decided pixel may be wrong.
 fn assert_exact_on_random_views(scene: SceneChoice, floor: bool, count: usize) {
+    let report = exact_on_random_views(Settings { scene, floor, ..Settings::default() }, count);
+    let decided: usize = report.lights.iter().map(|row| row.decided).sum();
+    let shadow: usize = report.lights.iter().map(|row| row.shadow).sum();
+    assert!(decided > count * 2 * 160 * 90 * 8 / 10 && shadow > 500, "{report}");
+}
+
+fn exact_on_random_views(settings: Settings, count: usize) -> Report {
     let request = VerifyRequest {
-        settings: Settings { scene, floor, size: [160, 90], ..Settings::default() },
+        settings: Settings { size: [160, 90], ..settings },
         techniques: EXACT.to_vec(),
         light: None,
         random: Some((count, 20_261_122)),
@@ -224,9 +231,53 @@ fn assert_exact_on_random_views(scene: SceneChoice, floor: bool, count: usize) {
     let report = verify(&request).unwrap();
     println!("{report}");
     assert_eq!((report.views, report.broken_promises()), (count, 0), "{report}");
-    let decided: usize = report.lights.iter().map(|row| row.decided).sum();
-    let shadow: usize = report.lights.iter().map(|row| row.shadow).sum();
-    assert!(decided > count * 2 * 160 * 90 * 8 / 10 && shadow > 500, "{report}");
+    report
+}
+
+#[test]
+fn random_views_are_exact_at_every_depth_of_mirrors() {
+    for bounces in [1, 2, 8] {
+        let mut reflected = vec![0; 9];
+        for name in ["barbershop", "corridor", "terraces", "figure3", "kaleidoscope", "gallery"] {
+            let mirrors = Mirrors { bounces, ..Mirrors::default() };
+            let scene = SceneChoice::Stock(name.into());
+            let report = exact_on_random_views(Settings { scene, mirrors, ..Settings::default() }, 3);
+            reflected.iter_mut().zip(&report.surfaces.bounces).for_each(|(all, these)| *all += these);
+        }
+        let deepest = reflected.iter().rposition(|pixels| *pixels > 0).unwrap();
+        assert_eq!(deepest, bounces as usize, "{reflected:?} decided pixels by reflections");
+    }
+}
+
+/// Drawn with one reflection and held against two: exactly what is seen by way of two mirrors is wrong. And taken for each
+/// other, mirrors are found out.
+#[test]
+fn what_is_seen_through_other_mirrors_is_found_wrong() {
+    let scene = stock::build("barbershop").unwrap().unwrap();
+    let mirrors = Mirrors { bounces: 1, ..Mirrors::default() };
+    let camera = CameraChoice::Named("hall of mirrors".into());
+    let settings = Settings { show: Show::Surfaces, camera, size: [160, 90], mirrors, ..Settings::default() };
+    let mut stage = Stage::new();
+    stage.set_scene(&scene);
+    let shot = stage.shoot(&settings, &scene);
+    let list = scene.mirrors_in_force(&settings.mirrors).0;
+    let world = World::with_mirrors(&scene, &shot.pose, &list);
+    let wrong = |bounces, mirror_of: &dyn Fn(usize) -> usize| {
+        let traced = world.trace(&shot.plan.views[0].camera, &[], settings.size, bounces, &|_| true).unwrap();
+        let found = traced.surfaces.compare(&shot.image, |path, instance| {
+            let path: Vec<_> = path.iter().map(|mirror| mirror_of(*mirror)).collect();
+            let view = shot.plan.views.iter().position(|view| view.path() == path)?;
+            let number = instance.map_or(0, |instance| view * scene.instances().count() + instance + 1);
+            Some(identity_color(u32::try_from(number).unwrap()))
+        });
+        (found.pixels.len(), found.bounces)
+    };
+    let (right, all) = wrong(1, &|mirror| mirror);
+    assert!(right == 0 && all[0] > 1000 && all[1] > 1000, "{right} wrong, {all:?} by reflections");
+    let (missing, all) = wrong(2, &|mirror| mirror);
+    assert!(missing == all[2] && missing > 200, "{missing} wrong, {all:?} by reflections");
+    let (other, all) = wrong(1, &|mirror| 1 - mirror);
+    assert_eq!(other, all[1], "the other mirror's view");
 }
 
 #[test]

@@ -240,7 +240,8 @@ impl Shots {
         (techniques, lights): (&[Technique], &[usize]),
         mut draw: impl FnMut(&FramePlan, &Pose) -> Result<RgbaImage, E>,
     ) -> Result<Option<Self>, E> {
-        let Some(&technique) = techniques.first().filter(|_| !lights.is_empty()) else { return Ok(None) };
+        let by = techniques.iter().find(|technique| reflects(**technique)).or(techniques.first());
+        let Some(&technique) = by.filter(|_| !lights.is_empty()) else { return Ok(None) };
         let settings = whole(settings);
         let surfaces = Settings { technique, show: Show::Surfaces, ..settings.clone() };
         let (pose, plan) = director::stage(&surfaces, scene, capabilities)?;
@@ -254,7 +255,7 @@ impl Shots {
                 instances: scene.instances().count(),
             },
             mirrors: scene.mirrors_in_force(&settings.mirrors).0,
-            bounces: settings.mirrors.most_bounces(),
+            bounces: if reflects(technique) { settings.mirrors.most_bounces() } else { 0 },
             pose,
         };
         for &technique in techniques {
@@ -273,20 +274,22 @@ impl Shots {
     /// What rays are cast through.
     #[must_use]
     pub fn world(&self, scene: &Scene) -> World {
-        World::with_mirrors(scene, &self.pose, &self.mirrors, self.bounces)
+        World::with_mirrors(scene, &self.pose, &self.mirrors)
     }
 
     /// Holds the pictures, of `size` pixels, against rays through `world`, which is [`Self::world`] or that of
     /// other shots of the same moment. `goes_on` as in [`World::judge_lights`].
     #[must_use]
     pub fn judge(&self, scene: &Scene, world: &World, size: [u32; 2], goes_on: &(dyn Fn(f64) -> bool + Sync)) -> Option<Judged> {
-        let Traced { verdicts, surfaces: seen } = world.trace(&self.camera, &self.lights, size, goes_on)?;
-        let found = self
-            .pictures
-            .iter()
-            .zip(verdicts.iter().cycle())
-            .map(|((technique, light, picture), verdicts)| (*technique, *light, verdicts.compare(picture)))
-            .collect();
+        let trace = |bounces| world.trace(&self.camera, &self.lights, size, bounces, goes_on);
+        let Traced { verdicts, surfaces: seen } = trace(self.bounces)?;
+        let draws_no_view = |picture: &(Technique, usize, RgbaImage)| self.bounces > 0 && !reflects(picture.0);
+        let plain = if self.pictures.iter().any(draws_no_view) { trace(0)?.verdicts } else { Vec::new() };
+        let compare = |(number, shot): (usize, &(Technique, usize, RgbaImage))| {
+            let verdicts = if draws_no_view(shot) { &plain } else { &verdicts };
+            (shot.0, shot.1, verdicts[number % verdicts.len()].compare(&shot.2))
+        };
+        let found = self.pictures.iter().enumerate().map(compare).collect();
         let surfaces = seen.compare(&self.surfaces, |path, instance| self.key.color(path, instance));
         let first_wrong = surfaces.pixels.first().map(|wrong| {
             let drawn = wrong.drawn.and_then(|color| self.key.meaning(color));
@@ -306,7 +309,12 @@ impl Shots {
     }
 }
 
-/// The same settings, with every view in a mirror that shows at all, and every pixel as it is.
+/// Whether a technique draws what is seen in mirrors: where shadows are quads over the picture, mirrors are surfaces.
+fn reflects(technique: Technique) -> bool {
+    techniques::row(technique).darkens.is_none()
+}
+
+/// The same settings, with every view in a mirror that shows at all.
 fn whole(settings: &Settings) -> Settings {
     let mirrors = Mirrors { least_pixels: 0, ..settings.mirrors.clone() };
     Settings { mirrors, ..settings.clone() }

@@ -12,6 +12,7 @@ use super::tree::{Bundle, Stack};
 use super::world::{Face, NONE, Seen, Towards, World};
 use crate::frame::Camera;
 use crate::geometry::planar::{height, reflection};
+use crate::settings::MAX_BOUNCES;
 
 /// The places in a pixel where surfaces are looked for, pixels from its centre.
 pub const PLACES: [DVec2; 5] = [
@@ -152,9 +153,9 @@ pub struct Shown {
 }
 
 impl World {
-    /// What is seen through a pixel, its centre so many pixels from the top left; none where places of the
-    /// pixel disagree.
-    pub(super) fn look(&self, eye: &Eye, center: DVec2, stack: &mut Stack) -> Option<Shown> {
+    /// What is seen through a pixel, its centre so many pixels from the top left, by rays that are reflected up to
+    /// `bounces` times; none where places of the pixel disagree.
+    pub(super) fn look(&self, eye: &Eye, center: DVec2, bounces: u32, stack: &mut Stack) -> Option<Shown> {
         let (mut eye, mut path) = (*eye, Path::default());
         loop {
             let directions = PLACES.map(|place| eye.direction(center + place));
@@ -168,7 +169,7 @@ impl World {
             if nearest.iter().filter(tied).any(|met| met.rival.1 != mirror) {
                 return None;
             }
-            let last = path.mirrors().len() >= self.bounces as usize;
+            let last = path.mirrors().len() >= bounces.min(MAX_BOUNCES) as usize;
             match if last { Towards::Back } else { self.towards(mirror, eye.at) } {
                 Towards::Unsure => return None,
                 Towards::Front(plane) => {

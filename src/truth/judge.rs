@@ -64,19 +64,21 @@ impl World {
         size: [u32; 2],
         goes_on: &(dyn Fn(f64) -> bool + Sync),
     ) -> Option<Vec<Verdicts>> {
-        self.trace(camera, lights, size, goes_on).map(|traced| traced.verdicts)
+        self.trace(camera, lights, size, 0, goes_on).map(|traced| traced.verdicts)
     }
 
-    /// The same, and which surface each pixel shows, through which mirrors.
+    /// The same by rays that mirrors reflect up to `bounces` times ([`crate::settings::MAX_BOUNCES`] at most), and
+    /// which surface each pixel shows, through which mirrors.
     pub fn trace(
         &self,
         camera: &Camera,
         lights: &[PosedLight],
         size: [u32; 2],
+        bounces: u32,
         goes_on: &(dyn Fn(f64) -> bool + Sync),
     ) -> Option<Traced> {
         let each = lights.len().max(1);
-        let rows = self.rows(camera, size, goes_on, |caster, y| {
+        let rows = self.rows((camera, bounces), size, goes_on, |caster, y| {
             let mut verdicts = vec![Verdict::Edge; each * size[0] as usize];
             let pixels = (0..size[0]).zip(verdicts.chunks_exact_mut(each));
             let surfaces: Vec<_> = pixels.map(|(x, verdicts)| caster.pixel(x, y, lights, verdicts)).collect();
@@ -96,7 +98,7 @@ impl World {
     #[must_use]
     pub fn counts(&self, camera: &Camera, light: &PosedLight, size: [u32; 2]) -> Vec<Option<u8>> {
         let row = |caster: &mut Caster<'_>, y| (0..size[0]).map(|x| caster.count(x, y, light)).collect::<Vec<_>>();
-        self.rows(camera, size, &|_| true, row).unwrap_or_default().into_iter().flatten().collect()
+        self.rows((camera, 0), size, &|_| true, row).unwrap_or_default().into_iter().flatten().collect()
     }
 
     /// Whether a point is in shadow of `light`; on a border it may say either.
@@ -108,17 +110,17 @@ impl World {
         light.shadows && shadow.counts[0] > 0
     }
 
-    /// Every row of a picture, on all cores.
+    /// Every row of a picture, on all cores, by rays that are reflected up to so many times.
     fn rows<T: Send>(
         &self,
-        camera: &Camera,
+        (camera, bounces): (&Camera, u32),
         size: [u32; 2],
         goes_on: &(dyn Fn(f64) -> bool + Sync),
         row: impl Fn(&mut Caster<'_>, u32) -> T + Sync,
     ) -> Option<Vec<T>> {
         let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
         let work = || {
-            let mut caster = Caster::new(self, camera, size);
+            let mut caster = Caster::new(self, Eye::new(camera, size), bounces);
             let mut done = Vec::new();
             while !stopped.load(Ordering::Relaxed) {
                 let y = next.fetch_add(1, Ordering::Relaxed);
@@ -151,6 +153,7 @@ impl World {
 struct Caster<'a> {
     world: &'a World,
     eye: Eye,
+    bounces: u32,
     stack: Stack,
     /// What cast the last shadow of each light: it may well cast the next.
     last: Vec<Option<u32>>,
@@ -167,8 +170,8 @@ struct Surface {
 }
 
 impl<'a> Caster<'a> {
-    fn new(world: &'a World, camera: &Camera, size: [u32; 2]) -> Self {
-        Self { world, eye: Eye::new(camera, size), stack: Stack::new(), last: Vec::new() }
+    fn new(world: &'a World, eye: Eye, bounces: u32) -> Self {
+        Self { world, eye, bounces, stack: Stack::new(), last: Vec::new() }
     }
 
     /// The verdict of each light on one pixel; gives the mirrors on the way and the instance that is seen,
@@ -198,7 +201,8 @@ impl<'a> Caster<'a> {
     }
 
     fn look(&mut self, x: u32, y: u32) -> Option<Shown> {
-        self.world.look(&self.eye, DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5), &mut self.stack)
+        let center = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+        self.world.look(&self.eye, center, self.bounces, &mut self.stack)
     }
 
     /// The surface that a pixel shows, to be lit; none where rays beside the centre's meet another triangle.

@@ -7,7 +7,6 @@ use super::tree::Tree;
 use crate::geometry::Aabb;
 use crate::geometry::planar::height;
 use crate::scene::{AlphaMode, Mesh, Mirror, Pose, Scene};
-use crate::settings::MAX_BOUNCES;
 
 /// The number of no face, no instance, no mirror.
 pub const NONE: u32 = u32::MAX;
@@ -26,8 +25,6 @@ pub struct World {
     pub(super) largest: f64,
     /// By their numbers.
     pub(super) mirrors: Vec<Glass>,
-    /// How often a ray is reflected at most.
-    pub(super) bounces: u32,
 }
 
 /// A mirror in the world.
@@ -98,13 +95,12 @@ impl World {
     /// The scene as posed, mirrors being surfaces as others.
     #[must_use]
     pub fn new(scene: &Scene, pose: &Pose) -> Self {
-        Self::with_mirrors(scene, pose, &[], 0)
+        Self::with_mirrors(scene, pose, &[])
     }
 
-    /// The scene as posed, in which rays are reflected by `mirrors` up to `bounces` times,
-    /// [`MAX_BOUNCES`] at most.
+    /// The scene as posed, with mirrors: [`Self::trace`] follows rays through them.
     #[must_use]
-    pub fn with_mirrors(scene: &Scene, pose: &Pose, mirrors: &[Mirror], bounces: u32) -> Self {
+    pub fn with_mirrors(scene: &Scene, pose: &Pose, mirrors: &[Mirror]) -> Self {
         let mut faces = Vec::new();
         let mut masks = Masks::new(scene);
         for (instance, (node_index, node, mesh)) in (0u32..).zip(scene.instances()) {
@@ -154,7 +150,6 @@ impl World {
             size: 2.0 * f64::from(bounds.radius()),
             largest,
             mirrors: mirrors.iter().map(glass).collect(),
-            bounces: bounces.min(MAX_BOUNCES),
         }
     }
 
