@@ -418,7 +418,8 @@ impl<'a> Frame<'a> {
     fn light_rect(&self, light: usize) -> Option<[u32; 4]> {
         let clip_from_world = self.view().camera.clip_from_world();
         let bounds = self.settings.culling.light_bounds;
-        let rect = light_rect(&self.pose.lights[light], bounds, self.settings.show.into(), &clip_from_world, self.plan.size)?;
+        let rect =
+            light_rect(&self.pose.lights[light], bounds, self.settings.show.into(), &clip_from_world, self.view().picture)?;
         common(rect, self.view().rect)
     }
 
@@ -482,7 +483,7 @@ impl<'a> Frame<'a> {
         let view = self.view();
         let culling = self.settings.culling;
         let interest = self.settings.show.into();
-        let audience = Audience::new(posed, stalls, view, interest, culling.on, scissor, self.plan.size);
+        let audience = Audience::new(posed, stalls, view, interest, culling.on, scissor, view.picture);
         let within = audience.receivers_within(receivers, view.camera.eye);
         let casters: Vec<_> = self
             .scene

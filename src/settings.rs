@@ -11,7 +11,7 @@ mod mirrors;
 pub use counting::{Counting, MAX_COUNT_BITS, Overflow};
 pub use culling::{Culling, LightBounds};
 pub use lighting::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
-pub use mirrors::{LastBounce, MAX_BOUNCES, MirrorMode, MirrorPlace, Mirrors};
+pub use mirrors::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorMode, MirrorPlace, Mirrors};
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

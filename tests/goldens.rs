@@ -13,7 +13,7 @@ use common::Stage;
 use glam::DVec3;
 use image::RgbaImage;
 use obscura::scene::stock;
-use obscura::settings::{LightEdit, Settings, Show, Technique};
+use obscura::settings::{LightEdit, MirrorMode, Settings, Show, Technique};
 
 const SIZE: [u32; 2] = [240, 135];
 
@@ -66,14 +66,42 @@ fn every_stock_scene_and_technique_looks_as_it_did() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// How reflections are drawn: of every scene with mirrors, by every mode but the default, which the scenes' own pictures
+/// have; and what is shown of mirrors alone.
+#[test]
+fn every_mirror_mode_looks_as_it_did() {
+    let mut stage = Stage::new();
+    let mut faults = Vec::new();
+    for row in stock::TABLE {
+        let scene = stock::build(row.name).unwrap().unwrap();
+        if scene.mirrors.is_empty() {
+            continue;
+        }
+        stage.set_scene(&scene);
+        let mut settings = Settings { technique: Technique::Auto, size: SIZE, time: 1.0, ..Settings::default() };
+        for show in [Show::Views, Show::Birdseye] {
+            let shot = stage.shoot(&Settings { show, ..settings.clone() }, &scene);
+            faults.extend(compare(&format!("{}-{}", row.name, show.name()), &shot.image).err());
+        }
+        for mode in MirrorMode::ALL.into_iter().filter(|mode| *mode != MirrorMode::default()) {
+            settings.mirrors.mode = mode;
+            let shot = stage.shoot(&settings, &scene);
+            faults.extend(compare(&format!("{}-mirrors-{}", row.name, mode.name()), &shot.image).err());
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
 #[test]
 fn every_show_looks_as_it_did() {
     let mut stage = Stage::new();
     let mut faults = Vec::new();
     let scene = stock::build("cubes").unwrap().unwrap();
     stage.set_scene(&scene);
-    // Where the lines of the view from above must be is told by tests/bounds.rs.
-    for show in Show::ALL.into_iter().filter(|show| !matches!(show, Show::Final | Show::Bounds)) {
+    // Where the lines of the view from above must be is told by tests/bounds.rs, and what mirrors show by the scenes that
+    // have some.
+    let others = |show: &Show| !matches!(show, Show::Final | Show::Bounds | Show::Birdseye);
+    for show in Show::ALL.into_iter().filter(others) {
         let settings = Settings { show, size: SIZE, time: 1.0, ..Settings::default() };
         let shot = stage.shoot(&settings, &scene);
         faults.extend(compare(&format!("show-{}", show.name()), &shot.image).err());

@@ -134,7 +134,7 @@ fn validation_knows_whose_bit_is_whose() {
         let mut steps = plan.steps.iter_mut().filter(|step| step.label.contains(wanted));
         match &mut steps.next().unwrap().action {
             Action::Draw(draw) => change(draw),
-            Action::Clear(_) => panic!("no draw is called {wanted}"),
+            Action::Clear(_) | Action::Keep => panic!("no draw is called {wanted}"),
         }
         validate(&plan).unwrap_err().what
     };

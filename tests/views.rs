@@ -139,11 +139,60 @@ fn what_lies_past_the_last_bounce_is_grey_or_fades() {
     assert!(faded != two, "the second does");
 }
 
+/// As wide as the picture, a texture has a pixel for each of the mirror's: then it shows what the stencil bounds. A
+/// narrower one shows its own pixels.
+#[test]
+fn a_texture_of_the_pictures_size_shows_what_the_stencil_bounds() {
+    let mut stage = Stage::new();
+    for name in ["barbershop", "gallery", "figure3"] {
+        let scene = room(name);
+        stage.set_scene(&scene);
+        let mut picture = |mode, texture| {
+            let mut settings = settings(1);
+            (settings.mirrors.mode, settings.mirrors.texture) = (mode, texture);
+            stage.shoot(&settings, &scene).image
+        };
+        let stencil = picture(MirrorMode::Stencil, 256);
+        let apart = |image: &image::RgbaImage| {
+            let pairs = image.as_raw().iter().zip(stencil.as_raw());
+            pairs.filter(|(a, b)| a.abs_diff(**b) > 2).count()
+        };
+        assert_eq!(apart(&picture(MirrorMode::Texture, SIZE[0])), 0, "{name}");
+        assert!(apart(&picture(MirrorMode::Texture, SIZE[0] / 4)) > 500, "{name}: its pixels show");
+    }
+}
+
+/// Without the stencil the reflection of what stands on the table shows below it, where nothing is in its way.
+#[test]
+fn unbounded_reflections_show_beside_their_mirror() {
+    let mut stage = Stage::new();
+    let scene = room("figure3");
+    stage.set_scene(&scene);
+    let mut picture = |mode, show| {
+        let mut settings = Settings { show, ..settings(1) };
+        settings.mirrors.mode = mode;
+        stage.shoot(&settings, &scene).image
+    };
+    let off = picture(MirrorMode::Off, Show::Final);
+    let bounded = picture(MirrorMode::Stencil, Show::Final);
+    let unbounded = picture(MirrorMode::Unbounded, Show::Final);
+    let differ = |a: &image::RgbaImage, b: &image::RgbaImage, x, y| {
+        a.get_pixel(x, y).0.iter().zip(b.get_pixel(x, y).0).any(|(a, b)| a.abs_diff(b) > 20)
+    };
+    let pixels = || (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y)));
+    let beside = pixels().filter(|&(x, y)| !differ(&bounded, &off, x, y) && differ(&unbounded, &off, x, y)).count();
+    assert!(beside > 500, "{beside} pixels");
+    assert!(
+        picture(MirrorMode::Unbounded, Show::Surfaces) == picture(MirrorMode::Stencil, Show::Surfaces),
+        "exact values are shown by the stencil"
+    );
+}
+
 fn draw_of<'a>(plan: &'a mut FramePlan, label: &str) -> &'a mut Draw {
     let found = plan.steps.iter_mut().find(|step| step.label.contains(label));
     match &mut found.unwrap_or_else(|| panic!("no step {label}")).action {
         Action::Draw(draw) => draw,
-        Action::Clear(_) => panic!("{label} clears"),
+        Action::Clear(_) | Action::Keep => panic!("{label} draws nothing"),
     }
 }
 

@@ -6,7 +6,7 @@ use super::command_line::Line;
 use super::input::InputError;
 use super::{by_name, index, names};
 use crate::scene::{Refusal, Scene};
-use crate::settings::{LastBounce, MAX_BOUNCES, MirrorMode, MirrorPlace, Mirrors};
+use crate::settings::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorMode, MirrorPlace, Mirrors};
 
 /// What both the window and `render` understand of it.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -21,6 +21,9 @@ pub(super) struct MirrorArguments {
     /// Mirrors reflect more, the more obliquely they are seen: on or off [default: off]
     #[arg(long, value_name = "SWITCH")]
     fresnel: Option<String>,
+    /// How wide a reflection's texture is, 16 to 4096 pixels, where mirrors are textures [default: 256]
+    #[arg(long, value_name = "PIXELS")]
+    mirror_texture: Option<u32>,
     /// Reflections of fewer pixels are not drawn [default: 0]
     #[arg(long, value_name = "PIXELS")]
     least_pixels: Option<u32>,
@@ -43,6 +46,7 @@ impl MirrorArguments {
         if let Some(name) = &self.fresnel {
             mirrors.fresnel = by_name("fresnel", name, [false, true], switch)?;
         }
+        mirrors.texture = self.mirror_texture.unwrap_or(mirrors.texture);
         mirrors.least_pixels = self.least_pixels.unwrap_or(mirrors.least_pixels);
         mirrors.edits.extend(self.mirror.iter().copied());
         Ok(())
@@ -66,7 +70,7 @@ fn edit(text: &str) -> Result<(MirrorPlace, bool), String> {
 
 /// The options that give `mirrors` again.
 pub(super) fn write(mirrors: &Mirrors, line: &mut Line) {
-    let Mirrors { mode, bounces, last, fresnel, least_pixels, edits } = mirrors;
+    let Mirrors { mode, bounces, last, fresnel, texture, least_pixels, edits } = mirrors;
     let default = Mirrors::default();
     if *mode != default.mode {
         line.option("--mirrors", mode.name());
@@ -76,6 +80,9 @@ pub(super) fn write(mirrors: &Mirrors, line: &mut Line) {
     }
     if *last != default.last {
         line.option("--last-bounce", last.name());
+    }
+    if *texture != default.texture {
+        line.option("--mirror-texture", &texture.to_string());
     }
     if *fresnel != default.fresnel {
         line.option("--fresnel", switch(*fresnel));
@@ -90,8 +97,11 @@ pub(super) fn write(mirrors: &Mirrors, line: &mut Line) {
 
 /// Says whether `mirrors` can be drawn on some scene.
 pub(super) fn check(mirrors: &Mirrors) -> Result<(), InputError> {
-    let (what, value, least, most) = ("the bounces", mirrors.bounces, 1, MAX_BOUNCES);
-    if (least..=most).contains(&value) { Ok(()) } else { Err(InputError::Range { what, value, least, most }) }
+    let within = |what, value, least, most| {
+        if (least..=most).contains(&value) { Ok(()) } else { Err(InputError::Range { what, value, least, most }) }
+    };
+    within("the bounces", mirrors.bounces, 1, MAX_BOUNCES)?;
+    within("a reflection's texture", mirrors.texture, LEAST_TEXTURE, MOST_TEXTURE)
 }
 
 /// Says whether the surfaces that `mirrors` speak of are there. What cannot be a mirror is drawn as it is, and

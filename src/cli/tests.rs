@@ -10,8 +10,8 @@ use proptest::prelude::*;
 use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
 use crate::settings::{
-    Accumulation, AreaMode, Counting, Culling, LastBounce, LightBounds, Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES, MAX_COUNT_BITS,
-    MAX_FRAMES, MirrorMode, MirrorPlace, Mirrors, Overflow, SlideChoice, Texturing,
+    Accumulation, AreaMode, Counting, Culling, LEAST_TEXTURE, LastBounce, LightBounds, Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES,
+    MAX_COUNT_BITS, MAX_FRAMES, MOST_TEXTURE, MirrorMode, MirrorPlace, Mirrors, Overflow, SlideChoice, Texturing,
 };
 
 fn command(line: &str) -> Result<Command, InputError> {
@@ -50,7 +50,7 @@ fn every_argument_reaches_its_setting() {
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --area-mode bits --light-sample 3 --accumulate 256 \
          --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on \
-         --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --least-pixels 25 --mirror 12=on --mirror 3:1=off \
+         --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --mirror-texture 77 --least-pixels 25 --mirror 12=on --mirror 3:1=off \
          --light-edit 1:on=true --adapter llvm --shaders wgsl",
     );
     let edit = LightEdit {
@@ -97,6 +97,7 @@ fn every_argument_reaches_its_setting() {
             bounces: 7,
             last: LastBounce::Fade,
             fresnel: true,
+            texture: 77,
             least_pixels: 25,
             edits: BTreeMap::from([
                 (MirrorPlace { node: 12, primitive: 0 }, true),
@@ -389,14 +390,16 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         1..=MAX_BOUNCES,
         prop::sample::select(&LastBounce::ALL[..]),
         any::<bool>(),
+        LEAST_TEXTURE..=MOST_TEXTURE,
         any::<u32>(),
         prop::collection::btree_map(place, any::<bool>(), 0..4),
     )
-        .prop_map(|(mode, bounces, last, fresnel, least_pixels, edits)| Mirrors {
+        .prop_map(|(mode, bounces, last, fresnel, texture, least_pixels, edits)| Mirrors {
             mode,
             bounces,
             last,
             fresnel,
+            texture,
             least_pixels,
             edits,
         });

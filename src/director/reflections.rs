@@ -9,7 +9,7 @@ use super::{Frame, MID_GREY, rounds};
 use crate::frame::plan::{View, Window};
 use crate::frame::state::Winding;
 use crate::frame::stencil::{BitBudget, StencilState};
-use crate::frame::{Clear, Target};
+use crate::frame::{Action, Clear, Step, Target};
 use crate::scene::AlphaMode;
 use crate::settings::{Show, Texturing};
 use crate::techniques::above::above_rooms;
@@ -60,6 +60,7 @@ impl Frame<'_> {
         };
         lights <= 1
             && !self.unbounded()
+            && !self.textured()
             && self.mirrors.all_perfect()
             && self.may_draw_directly()
             && !self.scene.instances().any(blended)
@@ -70,7 +71,7 @@ impl Frame<'_> {
         let view = self.outlook.view;
         let children = self.children(view);
         let mut stage = Stage { plain: Vec::new(), grey: Vec::new(), open: Vec::new() };
-        for group in surfaces::opaque_groups(self.known(), self.view(), self.plan.size, texturing) {
+        for group in surfaces::opaque_groups(self.known(), self.view(), self.view().picture, texturing) {
             let through = |child: &&usize| self.plan.views[**child].path().last().copied() == group.mirror();
             match (group.mirror(), children.iter().find(through)) {
                 (None, _) => stage.plain.push(group),
@@ -90,6 +91,10 @@ impl Frame<'_> {
         if unbounded {
             self.draw_unbounded(&stage.open);
         }
+        let textured = is_eye && self.textured();
+        if textured {
+            self.draw_textures(&stage.open);
+        }
         // The eye's own way of drawing directly asks for counts that are not zero, which in a mirror it cannot.
         let depth_first = direct && is_eye && self.pose.lights.iter().any(|light| light.on && light.shadows);
         if direct {
@@ -105,7 +110,10 @@ impl Frame<'_> {
             let grey = drawn::ambient(&stage.grey, whole);
             self.extend_grey(&stage.grey, grey);
         }
-        if !unbounded {
+        if textured {
+            let laid = stage.open.iter().map(|(group, child)| self.mirrors.textured(group, &self.plan, *child)).collect();
+            self.extend(laid);
+        } else if !unbounded {
             let (target, cover) = if direct { (Target::Direct, Cover::Finished) } else { (Target::Scene, Cover::Light) };
             let open = stage.open.iter().map(|(group, _)| drawn::lay(group, whole)).collect();
             self.extend_onto(target, open);
@@ -187,6 +195,22 @@ impl Frame<'_> {
         let dimmed = open.iter().filter_map(|(group, child)| self.mirrors.dim(group, &self.plan, *child));
         let dimmed = dimmed.collect();
         self.extend(dimmed);
+    }
+
+    /// Each mirror's view by itself, into its texture.
+    fn draw_textures(&mut self, open: &[(SurfaceGroup, usize)]) {
+        for (_, child) in open {
+            self.clear_all([0.0; 4], 0);
+            let outer: Outlook = self.look_from(*child);
+            self.used = u8::MAX;
+            self.push(mirrors::cover(&self.plan.views[*child], Cover::Light));
+            self.draw_view(false);
+            let why = "The reflection goes into the mirror's texture; the targets are free for what comes next.";
+            let label = format!("keep {}", self.view().name);
+            self.push(Step { label, why: why.into(), view: *child, action: Action::Keep });
+            self.outlook = outer;
+        }
+        self.start(0);
     }
 
     /// Each mirror's view, where the mirror is seen.
@@ -340,7 +364,7 @@ impl Frame<'_> {
         }
     }
 
-    fn extend_grey(&mut self, groups: &[SurfaceGroup], steps: Vec<crate::frame::Step>) {
+    fn extend_grey(&mut self, groups: &[SurfaceGroup], steps: Vec<Step>) {
         // One step for each: a mirror is a group by itself.
         for (group, step) in groups.iter().zip(steps) {
             let steps = self.mirrors.grey(group, self.plan.exposure, vec![step]);
@@ -348,15 +372,15 @@ impl Frame<'_> {
         }
     }
 
-    fn extend_onto(&mut self, target: Target, steps: Vec<crate::frame::Step>) {
+    fn extend_onto(&mut self, target: Target, steps: Vec<Step>) {
         for step in steps {
             self.push(onto(target, step));
         }
     }
 }
 
-fn onto(target: Target, step: crate::frame::Step) -> crate::frame::Step {
-    crate::frame::Step { action: step.action.onto(target), ..step }
+fn onto(target: Target, step: Step) -> Step {
+    Step { action: step.action.onto(target), ..step }
 }
 
 /// Where a view shows nothing: a display value.

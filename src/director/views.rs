@@ -10,7 +10,7 @@ use crate::geometry::planar::height;
 use crate::geometry::sight::{Sight, worst_case};
 use crate::geometry::{Aabb, Body};
 use crate::scene::{Pose, Scene};
-use crate::settings::{MirrorMode, Show};
+use crate::settings::{LEAST_TEXTURE, MOST_TEXTURE, MirrorMode, Show};
 use crate::techniques;
 use crate::techniques::culling::Stalls;
 use crate::techniques::mirrors::Mirrors;
@@ -93,6 +93,12 @@ impl Frame<'_> {
         self.settings.mirrors.mode == MirrorMode::Unbounded && shows_light
     }
 
+    /// Whether reflections are drawn into textures first.
+    pub(super) fn textured(&self) -> bool {
+        let shows_light = matches!(self.settings.show, Show::Final | Show::Volumes | Show::Wireframe);
+        self.settings.mirrors.mode == MirrorMode::Texture && shows_light
+    }
+
     /// Plans a view for each mirror that is seen, and for each that is seen in that, as far as the bounces go; and takes
     /// the stencil's bits that tell them apart.
     pub(super) fn plan_views(&mut self) {
@@ -123,6 +129,11 @@ impl Frame<'_> {
         let deepest = self.plan.views.iter().map(|view| view.path().len()).max().unwrap_or(0);
         if self.unbounded() {
             self.plan.notes.push("reflections are not bounded to their mirrors".into());
+        } else if self.textured() {
+            if self.plan.samples != 1 {
+                self.plan.notes.push("reflections go into textures: 1 sample a pixel".into());
+            }
+            self.plan.samples = 1;
         } else if deepest > 0 {
             self.plan.budget = self.plan.budget.with_mirrors(u32::try_from(deepest).unwrap_or(u32::MAX));
             let budget = self.plan.budget;
@@ -151,6 +162,11 @@ impl Grower<'_, '_> {
             return;
         }
         let unbounded = frame.unbounded();
+        let [width, height] = frame.plan.size;
+        let texture = frame.textured().then(|| {
+            let wide = frame.settings.mirrors.texture.clamp(LEAST_TEXTURE, MOST_TEXTURE).min(width);
+            [wide, (u64::from(wide) * u64::from(height)).div_ceil(width.into()).max(1).min(height.into()) as u32]
+        });
         let slack = SLACK * f64::from(frame.scene.bounds(frame.pose).radius());
         let mut found = Vec::new();
         for (number, mirror, posed) in frame.mirrors.posed() {
@@ -168,6 +184,7 @@ impl Grower<'_, '_> {
                 seen.outline.clone_from(&sight.outline);
             }
             let Some(rect) = seen.rect() else { continue };
+            let rect = texture.map_or(rect, |[width, height]| [0, 0, width, height]);
             let path: Vec<_> = seen_from.path().iter().copied().chain([number]).collect();
             let window = Window { parent: at, path, surface, plane: seen.near, slack, level: 0 };
             found.push((seen, rect, window, format!("{} > {}", seen_from.name, mirror.name)));
@@ -181,7 +198,9 @@ impl Grower<'_, '_> {
             }
             let camera = seen_from.camera.reflected(window.plane);
             let winding = if camera.mirrored { Winding::Cw } else { Winding::Ccw };
-            frame.plan.views.push(View { name, camera, winding, rect, through: Some(window) });
+            let kept = texture.map(|_| view - 1);
+            let picture = texture.unwrap_or(frame.plan.size);
+            frame.plan.views.push(View { name, camera, winding, rect, picture, texture: kept, through: Some(window) });
             frame.sights.push(sight);
             self.grow(view);
         }

@@ -90,6 +90,11 @@ pub struct View {
     pub winding: Winding,
     /// The pixels it may have.
     pub rect: [u32; 4],
+    /// Pixels: of the picture it is drawn as, which fills the left upper part of the targets. Smaller than the frame's for
+    /// a view that goes into a texture.
+    pub picture: [u32; 2],
+    /// Which of the frame's textures keeps it, where one does.
+    pub texture: Option<usize>,
     /// What it looks through; none for the eye itself.
     pub through: Option<Window>,
 }
@@ -124,7 +129,15 @@ impl View {
     /// The eye's own, of the whole picture.
     #[must_use]
     pub fn of_eye(name: &str, camera: Camera, size: [u32; 2]) -> Self {
-        Self { name: name.into(), camera, winding: Winding::Ccw, rect: [0, 0, size[0], size[1]], through: None }
+        Self {
+            name: name.into(),
+            camera,
+            winding: Winding::Ccw,
+            rect: [0, 0, size[0], size[1]],
+            picture: size,
+            texture: None,
+            through: None,
+        }
     }
 
     /// The mirrors on the way from the eye; none for the eye's own.
@@ -380,11 +393,22 @@ impl FramePlan {
         })
     }
 
+    /// The view that is kept in a texture for the one mirror that a draw of `view` draws.
+    #[must_use]
+    pub fn kept_behind(&self, view: usize, draw: &Draw) -> Option<usize> {
+        let DrawSet::Surfaces(surfaces) = &draw.set else { return None };
+        let behind = |of: &View| {
+            let window = of.through.as_ref();
+            window.is_some_and(|window| window.parent == view && surfaces.as_slice() == [window.surface])
+        };
+        self.views.iter().position(|of| of.texture.is_some() && behind(of))
+    }
+
     /// The draws, in order, with their steps.
     pub fn draws(&self) -> impl Iterator<Item = (&Step, &Draw)> {
         self.steps.iter().filter_map(|step| match &step.action {
             Action::Draw(draw) => Some((step, &**draw)),
-            Action::Clear(_) => None,
+            Action::Clear(_) | Action::Keep => None,
         })
     }
 }

@@ -31,7 +31,7 @@ impl Step {
     pub fn scissor(&self) -> Option<[u32; 4]> {
         match &self.action {
             Action::Draw(draw) => Some(draw.scissor),
-            Action::Clear(_) => None,
+            Action::Clear(_) | Action::Keep => None,
         }
     }
 }
@@ -44,6 +44,8 @@ pub enum Action {
     Clear(Clear),
     /// Draws.
     Draw(Box<Draw>),
+    /// Keeps the view's picture in its texture, as far as it is drawn.
+    Keep,
 }
 
 /// What an attachment clear sets; `None` leaves the attachment as it is.
@@ -260,6 +262,8 @@ pub enum Program {
     Reflected,
     /// Full screen, at infinity: the gradient behind everything, as light.
     Backdrop,
+    /// A mirror's surface with the texture that keeps the view through it.
+    Mirrored,
     /// Surfaces in the colour of their number ([`crate::frame::identity_color`]).
     Identity,
 }

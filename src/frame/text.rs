@@ -93,6 +93,7 @@ impl Display for FramePlan {
                     writeln!(f, "     clear {}", parts.join(", "))?;
                 }
                 Action::Draw(draw) => describe(f, draw, self.budget)?,
+                Action::Keep => writeln!(f, "     keep {:?} pixels in a texture", self.views[step.view].picture)?,
             }
         }
         for note in &self.notes {

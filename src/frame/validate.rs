@@ -69,6 +69,12 @@ pub fn validate(plan: &FramePlan) -> Result<(), Fault> {
                     state.wide = None;
                 }
             }
+            Action::Keep
+                if plan.views[step.view].texture.is_none() || !state.color_set || state.gathered || state.output_begun =>
+            {
+                return Err(fault("it keeps what has no texture, or is not drawn"));
+            }
+            Action::Keep => state.kept.push(step.view),
             Action::Draw(draw) => mirrors::check(plan, step.view, draw, &mut state).map_err(fault)?,
         }
     }
@@ -92,6 +98,8 @@ struct Progress {
     view: usize,
     /// The views whose mirrors' pixels are tagged, each seen in the one before.
     open: Vec<usize>,
+    /// Views that textures keep by now.
+    kept: Vec<usize>,
     /// What the bits hold that count is this view's.
     field_known: bool,
     color_set: bool,

@@ -10,7 +10,7 @@ use super::scene_buffers::SceneBuffers;
 use super::shaders::{BANDS, Vertices, entry_of};
 use super::targets::{Mean, Targets};
 use super::timing::Timing;
-use crate::frame::{Action, Clear, Draw, DrawSet, FramePlan, Surface, Target, VolumePart};
+use crate::frame::{Action, Clear, Draw, DrawSet, FramePlan, Program, Surface, Target, View, VolumePart};
 use crate::scene::Scene;
 
 /// What a frame is drawn with and into.
@@ -44,6 +44,8 @@ struct Pass<'a> {
     clear: Clear,
     /// With each draw's number among the plan's draws.
     draws: Vec<(Place, &'a Draw)>,
+    /// The view whose picture is kept in its texture afterwards.
+    keeps: Option<usize>,
 }
 
 /// Records the whole plan.
@@ -67,6 +69,10 @@ pub fn encode(encode: Encode<'_>, plan: &FramePlan, scene: &Scene, encoder: &mut
         recorder.set_bind_group_checked(0, encode.frame.bind_group(), Place::default());
         for &(place, draw) in &pass.draws {
             encode.record(&mut recorder, plan, scene, draw, place, &mut drawn);
+        }
+        drop(recorder);
+        if let Some(view) = pass.keeps {
+            encode.keep(encoder, &plan.views[view]);
         }
     }
     drawn
@@ -110,6 +116,11 @@ fn passes(plan: &FramePlan) -> Vec<Pass<'_>> {
                     counts: clear.counts.or(before.counts),
                 });
             }
+            Action::Keep => {
+                if let Some(pass) = passes.last_mut() {
+                    pass.keeps = Some(step.view);
+                }
+            }
             Action::Draw(draw) => {
                 // The mean's and the picture's own passes clear nothing of the scene's, and the counts' no
                 // colour.
@@ -120,12 +131,18 @@ fn passes(plan: &FramePlan) -> Vec<Pass<'_>> {
                 };
                 if let Some(mut clear) = pending.take_if(|_| elsewhere) {
                     let counts = clear.counts.take_if(|_| draw.target == Target::Counts);
-                    passes.push(Pass { target: Target::Scene, clear, draws: Vec::new() });
+                    passes.push(Pass { target: Target::Scene, clear, draws: Vec::new(), keeps: None });
                     pending = counts.map(|counts| Clear { counts: Some(counts), ..KEEP });
                 }
-                let joins = pending.is_none() && passes.last().is_some_and(|pass| pass.target == draw.target);
+                let follows = |pass: &Pass<'_>| pass.target == draw.target && pass.keeps.is_none();
+                let joins = pending.is_none() && passes.last().is_some_and(follows);
                 if !joins {
-                    passes.push(Pass { target: draw.target, clear: pending.take().unwrap_or(KEEP), draws: Vec::new() });
+                    passes.push(Pass {
+                        target: draw.target,
+                        clear: pending.take().unwrap_or(KEEP),
+                        draws: Vec::new(),
+                        keeps: None,
+                    });
                 }
                 if let Some(pass) = passes.last_mut() {
                     pass.draws.push((Place { view: step.view, number }, draw));
@@ -224,6 +241,17 @@ impl Encode<'_> {
         }
     }
 
+    /// What was drawn of a view into its texture.
+    fn keep(&self, encoder: &mut wgpu::CommandEncoder, view: &View) {
+        let Some(reflection) = view.texture.and_then(|texture| self.targets.reflections.get(texture)) else { return };
+        let [width, height] = reflection.size;
+        encoder.copy_texture_to_texture(
+            self.targets.color_texture.as_image_copy(),
+            reflection.texture.as_image_copy(),
+            wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        );
+    }
+
     fn record(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -239,6 +267,14 @@ impl Encode<'_> {
         pass.set_stencil_reference(draw.stencil_reference.into());
         let [x, y, width, height] = draw.scissor;
         pass.set_scissor_rect(x, y, width, height);
+        if !self.targets.reflections.is_empty() {
+            let [width, height] = plan.views[place.view].picture.map(|side| side as f32);
+            pass.set_viewport(0.0, 0.0, width, height, 0.0, 1.0);
+        }
+        let kept = plan.kept_behind(place.view, draw).filter(|_| draw.program == Program::Mirrored);
+        if let Some(reflection) = kept.and_then(|view| self.targets.reflections.get(plan.views[view].texture?)) {
+            pass.set_bind_group(2, &reflection.read, &[]);
+        }
         match &draw.set {
             DrawSet::FullScreen => {
                 match (reads(draw.program, draw.target), &self.targets.counts, self.mean(plan)) {

@@ -432,7 +432,7 @@ fn end_in_object(end: Option<DVec4>, world_from_object: &DAffine3) -> Vec4 {
 
 fn frame(plan: &FramePlan, view: &View, scene: &Scene, pose: &Pose) -> Frame {
     #[expect(clippy::cast_precision_loss, reason = "pixels fit f32 exactly")]
-    let size = plan.size.map(|side| side as f32);
+    let size = view.picture.map(|side| side as f32);
     Frame {
         eye: view.camera.eye.as_vec3().to_array(),
         exposure: plan.exposure / scale(plan),

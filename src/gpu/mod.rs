@@ -143,6 +143,8 @@ impl Renderer {
         if plan.draws().any(|(_, draw)| draw.target == Target::Counts) {
             targets.with_counts(context, &self.pipelines.counts_layouts);
         }
+        let kept: Vec<_> = plan.views.iter().filter(|view| view.texture.is_some()).map(|view| view.picture).collect();
+        targets.with_reflections(context, &self.pipelines.reflection_layout, &kept);
         for (instance, (node, _, mesh)) in scene.instances().enumerate() {
             buffers.pose(context, instance, mesh, pose.deformed[node].as_ref());
         }

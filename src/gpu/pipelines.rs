@@ -65,8 +65,11 @@ pub struct Pipelines {
     pub labels_layout: wgpu::BindGroupLayout,
     /// Group 1 of programs that read the counts, of one sample and of several.
     pub counts_layouts: [wgpu::BindGroupLayout; 2],
+    /// Group 2 of mirrors with a texture: the texture, its sampler.
+    pub reflection_layout: wgpu::BindGroupLayout,
     bare: wgpu::PipelineLayout,
     surface: wgpu::PipelineLayout,
+    mirrored: wgpu::PipelineLayout,
     picture: wgpu::PipelineLayout,
     labels: wgpu::PipelineLayout,
     counts: [wgpu::PipelineLayout; 2],
@@ -166,6 +169,18 @@ impl Pipelines {
             }
             layout("counts", &[entry])
         });
+        let reflection_layout = layout(
+            "reflection",
+            &[
+                sampled(0, wgpu::TextureSampleType::Float { filterable: true }),
+                wgpu::BindGroupLayoutEntry {
+                    binding: 1,
+                    visibility: wgpu::ShaderStages::FRAGMENT,
+                    ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+                    count: None,
+                },
+            ],
+        );
         let pipeline_layout = |label, groups: &[&wgpu::BindGroupLayout]| {
             let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
             device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -178,6 +193,8 @@ impl Pipelines {
         Ok(Self {
             bare: pipeline_layout("bare", &[&frame_layout]),
             surface: pipeline_layout("surface", &[&frame_layout, &material_layout]),
+            mirrored: pipeline_layout("mirrored", &[&frame_layout, &material_layout, &reflection_layout]),
+            reflection_layout,
             picture: pipeline_layout("picture", &[&frame_layout, &targets_layout]),
             labels: pipeline_layout("labels", &[&frame_layout, &labels_layout]),
             labels_layout,
@@ -240,6 +257,7 @@ impl Pipelines {
         let entry = entry_of(key.program);
         let module = &self.modules[entry.file];
         let layout = match (entry.vertices, reads(key.program, key.target)) {
+            (Vertices::Surface, _) if key.program == Program::Mirrored => &self.mirrored,
             (Vertices::Surface, _) => &self.surface,
             (Vertices::Labels, _) => &self.labels,
             (Vertices::Lines, _) => &self.bare,

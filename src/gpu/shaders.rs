@@ -35,6 +35,7 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("dark.wgsl", include_str!("../../shaders/dark.wgsl")),
     ("bounds.wgsl", include_str!("../../shaders/bounds.wgsl")),
     ("reflect.wgsl", include_str!("../../shaders/reflect.wgsl")),
+    ("mirrored.wgsl", include_str!("../../shaders/mirrored.wgsl")),
     ("identity.wgsl", include_str!("../../shaders/identity.wgsl")),
     ("output.wgsl", include_str!("../../shaders/output.wgsl")),
 ];
@@ -167,6 +168,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::Own, "ambient.wgsl", "ambient_vertex", "own", Vertices::Surface, AMBIENT),
     entry(Program::Reflected, "reflect.wgsl", "surface_vertex", "reflected", Vertices::Surface, REFLECTED),
     entry(Program::Backdrop, "output.wgsl", "backdrop_vertex", "backdrop", Vertices::None, &[]),
+    entry(Program::Mirrored, "mirrored.wgsl", "surface_vertex", "mirrored", Vertices::Surface, REFLECTED),
     entry(Program::Identity, "identity.wgsl", "identity_vertex", "identity", Vertices::Surface, SURFACE),
 ];
 

@@ -43,6 +43,8 @@ pub struct Targets {
     pub shape: Shape,
     /// What is drawn to.
     pub color: wgpu::TextureView,
+    /// The same, for copies (at one sample).
+    pub color_texture: wgpu::Texture,
     /// What `color` resolves to, where it has several samples.
     pub resolved: Option<wgpu::TextureView>,
     /// Depth and stencil.
@@ -55,6 +57,18 @@ pub struct Targets {
     pub means: Option<[Mean; 2]>,
     /// Made by [`Self::with_counts`] for the first plan that counts beyond the stencil.
     pub counts: Option<Counts>,
+    /// Made by [`Self::with_reflections`]: one for each view that goes into a texture.
+    pub reflections: Vec<Reflection>,
+}
+
+/// What a mirror shows, as a texture.
+pub struct Reflection {
+    /// Pixels.
+    pub size: [u32; 2],
+    /// What is copied to.
+    pub texture: wgpu::Texture,
+    /// What mirrors read it by.
+    pub read: wgpu::BindGroup,
 }
 
 /// One number a sample, for counts that the stencil has too few bits for.
@@ -93,12 +107,20 @@ impl Targets {
         let read = attachment | wgpu::TextureUsages::TEXTURE_BINDING;
         let one = samples == 1;
         let format = color_format(accumulation);
-        let color = texture(context, "scene colour", size, samples, format, if one { read } else { attachment });
+        let color = texture(
+            context,
+            "scene colour",
+            size,
+            samples,
+            format,
+            if one { read | wgpu::TextureUsages::COPY_SRC } else { attachment },
+        );
         let resolved = (!one).then(|| texture(context, "scene colour, resolved", size, 1, format, read));
         let depth_usage = if one { read | wgpu::TextureUsages::COPY_SRC } else { attachment };
         let depth_stencil_texture =
             texture(context, "scene depth and stencil", size, samples, context.depth_format(), depth_usage);
-        let color = color.create_view(&Default::default());
+        let color_texture = color;
+        let color = color_texture.create_view(&Default::default());
         let resolved = resolved.map(|texture| texture.create_view(&Default::default()));
         let depth_stencil = depth_stencil_texture.create_view(&Default::default());
 
@@ -129,7 +151,48 @@ impl Targets {
             })
         });
         let read = group(drawn, drawn);
-        Ok(Self { shape, color, resolved, depth_stencil, depth_stencil_texture, read, means, counts: None })
+        let reflections = Vec::new();
+        Ok(Self {
+            shape,
+            color,
+            color_texture,
+            reflections,
+            resolved,
+            depth_stencil,
+            depth_stencil_texture,
+            read,
+            means,
+            counts: None,
+        })
+    }
+
+    /// Makes a texture of each of these sizes, where it is not there yet.
+    pub fn with_reflections(&mut self, context: &Context, layout: &wgpu::BindGroupLayout, sizes: &[[u32; 2]]) {
+        if self.reflections.iter().map(|reflection| reflection.size).eq(sizes.iter().copied()) {
+            return;
+        }
+        let usage = wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::TEXTURE_BINDING;
+        let format = color_format(self.shape.accumulation);
+        let sampler = context.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("reflection"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        });
+        let make = |&size: &[u32; 2]| {
+            let texture = texture(context, "reflection", size, 1, format, usage);
+            let view = texture.create_view(&Default::default());
+            let read = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("reflection"),
+                layout,
+                entries: &[
+                    wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&view) },
+                    wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&sampler) },
+                ],
+            });
+            Reflection { size, texture, read }
+        };
+        self.reflections = sizes.iter().map(make).collect();
     }
 
     /// Makes the counts' target where it is not there yet; `layouts` are those of one sample and of

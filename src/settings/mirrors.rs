@@ -16,6 +16,9 @@ pub struct Mirrors {
     pub last: LastBounce,
     /// Mirrors reflect more, the more obliquely they are seen (Schlick 1994), instead of evenly.
     pub fresnel: bool,
+    /// Pixels: how wide a reflection's texture is, [`LEAST_TEXTURE`] to [`MOST_TEXTURE`], as far as the picture is as wide;
+    /// its height follows the picture's.
+    pub texture: u32,
     /// Pixels: views of a smaller area are not drawn; 0 draws every one that shows.
     pub least_pixels: u32,
     /// What was changed of the scene's mirrors.
@@ -32,6 +35,12 @@ pub struct MirrorPlace {
     pub primitive: usize,
 }
 
+/// The narrowest texture of a reflection, pixels.
+pub const LEAST_TEXTURE: u32 = 16;
+
+/// The widest.
+pub const MOST_TEXTURE: u32 = 4096;
+
 /// The most reflections of one ray.
 pub const MAX_BOUNCES: u32 = 8;
 
@@ -42,6 +51,7 @@ impl Default for Mirrors {
             bounces: 4,
             last: LastBounce::default(),
             fresnel: false,
+            texture: 256,
             least_pixels: 0,
             edits: BTreeMap::new(),
         }
@@ -60,7 +70,7 @@ impl Mirrors {
     pub fn most_bounces(&self) -> u32 {
         match self.mode {
             MirrorMode::Off => 0,
-            MirrorMode::Unbounded | MirrorMode::Stencil => 1,
+            MirrorMode::Unbounded | MirrorMode::Stencil | MirrorMode::Texture => 1,
             MirrorMode::Recursive => self.bounces.clamp(1, MAX_BOUNCES),
         }
     }
@@ -80,11 +90,15 @@ pub enum MirrorMode {
     /// Mirrors in mirrors (K section 3, "recursive reflections").
     #[default]
     Recursive,
+    /// One reflection, drawn into a texture of its own, which is then laid on the mirror: no stencil is needed, but the
+    /// texture's own pixels show (K section 3 compares the two; Quake 3 does it so). Exact values are shown as with
+    /// [`Self::Stencil`].
+    Texture,
 }
 
 impl MirrorMode {
     /// Every one, in the order people see them.
-    pub const ALL: [Self; 4] = [Self::Off, Self::Unbounded, Self::Stencil, Self::Recursive];
+    pub const ALL: [Self; 5] = [Self::Off, Self::Unbounded, Self::Stencil, Self::Recursive, Self::Texture];
 
     /// The name on the command line and in files.
     #[must_use]
@@ -94,6 +108,7 @@ impl MirrorMode {
             Self::Unbounded => "unbounded",
             Self::Stencil => "stencil",
             Self::Recursive => "recursive",
+            Self::Texture => "texture",
         }
     }
 
@@ -105,6 +120,7 @@ impl MirrorMode {
             Self::Unbounded => "one reflection without the stencil: it shows beside the mirror too (Kilgard 2, figure 3)",
             Self::Stencil => "one reflection, bounded by the stencil; mirrors in a mirror are grey (Kilgard 3)",
             Self::Recursive => "mirrors in mirrors, each view bounded by the stencil (Kilgard 3)",
+            Self::Texture => "one reflection, drawn into a texture first, which is then laid on the mirror (Quake 3)",
         }
     }
 }

@@ -111,6 +111,8 @@ mod tests {
             camera,
             winding: Winding::Ccw,
             rect: [0; 4],
+            picture: [1, 1],
+            texture: None,
             through: Some(Window {
                 parent,
                 path: vec![0],

@@ -205,6 +205,20 @@ impl Mirrors {
         self.multiply(group, to, &mut draw).then(|| step(format!("dim {}", to.name), why, draw))
     }
 
+    /// The mirror's surface with the texture of what it reflects, as much of it as the mirror shows; lays depth.
+    #[must_use]
+    pub fn textured(&self, group: &SurfaceGroup, plan: &FramePlan, child: usize) -> Step {
+        let (from, to) = (parent(plan, child), &plan.views[child]);
+        let mut draw = group.depth_draw(Depth::LAY, StencilState::IGNORE, from.rect);
+        draw.constant = Vec3::ONE.extend(1.0).to_array();
+        self.multiply(group, to, &mut draw);
+        draw.program = Program::Mirrored;
+        draw.look = Look { clipped: group.kind.look.clipped, mirror: group.kind.look.mirror, ..Look::default() };
+        draw.state.color = Some(Blend::Replace);
+        let why = "The mirror's surface with its texture: each pixel finds what it reflects in the place where it lies itself.";
+        step(format!("lay on {}", to.name), why, draw)
+    }
+
     /// Makes a draw of the mirror's surface multiply the reflection with how much of it the mirror shows; false where
     /// that is all of it, just as it is.
     fn multiply(&self, group: &SurfaceGroup, to: &View, draw: &mut Draw) -> bool {

@@ -9,7 +9,7 @@ use crate::frame::stencil::BitBudget;
 use crate::frame::{Camera, FramePlan};
 use crate::scene::pick::surface_at;
 use crate::scene::{Mirror, Reflective, Scene};
-use crate::settings::{LastBounce, MAX_BOUNCES, MirrorMode, MirrorPlace, Mirrors};
+use crate::settings::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorMode, MirrorPlace, Mirrors};
 
 /// A mode's name on its button.
 const fn title(mode: MirrorMode) -> &'static str {
@@ -18,6 +18,7 @@ const fn title(mode: MirrorMode) -> &'static str {
         MirrorMode::Unbounded => "Unbounded",
         MirrorMode::Stencil => "One bounce",
         MirrorMode::Recursive => "Mirrors in mirrors",
+        MirrorMode::Texture => "Texture",
     }
 }
 
@@ -37,6 +38,10 @@ pub fn mirrors(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
         let tip = "How often a ray is reflected at most";
         field(ui, "Bounces", tip, |ui| ui.add(slider(&mut settings.bounces, 1..=MAX_BOUNCES)));
     });
+    if settings.mode == MirrorMode::Texture {
+        let tip = "How wide a reflection's texture is, pixels: the whole picture goes into it, so its pixels show on the mirror";
+        field(ui, "Texture", tip, |ui| ui.add(number(&mut settings.texture).range(LEAST_TEXTURE..=MOST_TEXTURE).speed(4.0)));
+    }
     ui.horizontal(|ui| {
         ui.label(RichText::new("Past the last").color(style::WEAK));
         style::tight(ui);

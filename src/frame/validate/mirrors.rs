@@ -10,6 +10,9 @@ use crate::frame::step::{Draw, DrawSet, Program, Target};
 pub(super) fn check(plan: &FramePlan, view: usize, draw: &Draw, state: &mut Progress) -> Result<(), &'static str> {
     let mask = plan.budget.mirror_mask;
     let stencil = &draw.state.stencil;
+    if draw.program == Program::Mirrored && !plan.kept_behind(view, draw).is_some_and(|child| state.kept.contains(&child)) {
+        return Err("it lays a texture on a mirror that keeps no view of it");
+    }
     if mask == 0 || !matches!(draw.target, Target::Scene | Target::Direct | Target::Counts) {
         return check_draw(plan, draw, state);
     }
