@@ -62,6 +62,31 @@
 //! points, each counted as a light of its own ([`scene::area`]); and a picture may be the mean of many frames,
 //! each with other points ([`frame::Gather`]).
 //!
+//! # Mirrors
+//!
+//! A frame with mirrors is a tree of views ([`frame::View`]): the eye's, and for each mirror that shows in a view the
+//! view through it, planned from the mirror's polygons clipped against what that view sees ([`geometry::sight`]).
+//!
+//! ```text
+//!   view:   ambient light, depth
+//!           for each mirror that shows:  tag its pixels    one mirror bit, where depth is the mirror's
+//!                                        cover them        depth to infinity, background
+//!                                        view ...          the same again, seen by the reflected eye
+//!                                        uncover them      depth and tag as they were, the reflection dimmed
+//!           light by light:              count, add        the mirrors' own look too
+//! ```
+//!
+//! Not the world is reflected but the eye ([`frame::Camera::reflected`]), so positions, volumes and lights stay what they
+//! are, and only windings change their sense. A step of a view asks for its level in the mirror bits; levels are in Gray
+//! code, so that one `Invert` leads from each to the next. Where exact values are shown the order is another: a view's
+//! count comes first, and its mirrors' views then take their pixels over.
+//!
+//! What lies behind a mirror's plane is left out fragment by fragment, not by clip distances: a triangle that is cut has
+//! other depths in its last bits than the light cap on it, which nothing cuts. Volumes are never cut; a caster that is not
+//! wholly before the plane is counted by compared z-fail ([`techniques::Caster::surface_covers`]). Batches end in a step
+//! that asks for a count which is *not* zero, and cannot ask for a view as well: in a view's own pixels it is right, and
+//! other views count anew; where a view's count must stay it is counted wide.
+//!
 //! `--show cases`, `bounds`, `overflow` and the rest read what the plan decided; none decides by itself.
 //!
 //! # Spaces and depth
@@ -79,7 +104,9 @@
 //!
 //! ```text
 //!   bit   7 6 5 4 3 2 1 0
-//!         [  shadow count ]      modulo 256; mirrors will take the high bits
+//!         [  shadow count ]      modulo 256
+//!         m m m [ count   ]      mirrors seen in mirrors: their level in Gray code, as many bits as it takes; both
+//!                                below are then counted in what is left
 //!         V [shadow count ]      counting in batches: V, shadowed by a batch before; modulo 128
 //!         B [shadow count ]      within depth bounds: B, beyond the light's bounds, nothing is counted
 //!         d c b a [ count ]      points of a light with a size, each with a bit of its own
