@@ -137,9 +137,8 @@
 //!
 //! What is left is the rasteriser's own grid. It moves corners by up to half of a 256th of a pixel, and on
 //! lavapipe finds depths as if they were not moved: so close to an edge a steep triangle gets a depth from
-//! beyond its edge. One pixel in some ten million was wrong by that; now rays call the 256th of a pixel about an
-//! edge undecided ([`truth`]). Moving the corners to the grid in the vertex shader was tried: coverage and depth
-//! agree then, but facets tilt, and more is lost than won.
+//! beyond its edge. One pixel in some ten million is wrong by that. Moving the corners to the grid in the
+//! vertex shader was tried: coverage and depth agree then, but facets tilt, and more is lost than won.
 //!
 //! A volume may be thrown from something else than its caster's silhouette: a planar cut-out, or the
 //! silhouette flattened into one ([`frame::Cutout`]). The shape of a volume and the way it is counted

@@ -13,7 +13,7 @@ use crate::frame::Camera;
 use crate::scene::{LightKind, PosedLight};
 
 /// Where the centre's ray to the light begins when it is moved along the surface, to the right and
-/// down: by [`NUDGE`], or by [`GRID`] where that is more.
+/// down, in [`NUDGE`]s.
 const SIDEWAYS: [DVec2; 4] = [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y];
 
 /// Points of a surface: what is met at each place, and the centre's moved sideways.
@@ -212,9 +212,9 @@ impl<'a> Caster<'a> {
         // corners to the nearest 256th of a pixel, may give the pixel to the one and the edge of a volume
         // that begins there to the other.
         let (depth, moved) = (nearest[0].depth, NUDGE * self.world.size);
-        let [across, along] = eye.pixel.map(|step| step * GRID.max(moved / depth / step.length()));
-        let sideways = SIDEWAYS.map(|by| directions[0] + across * by.x + along * by.y);
-        let again = self.world.meet(eye, sideways, across.length().max(along.length()), &mut self.stack);
+        let [across, along] = eye.pixel.map(DVec3::normalize);
+        let sideways = SIDEWAYS.map(|by| directions[0] + (across * by.x + along * by.y) * (moved / depth));
+        let again = self.world.meet(eye, sideways, moved / depth, &mut self.stack);
         if again.iter().any(|met| met.face != nearest[0].face) {
             return None;
         }

@@ -17,11 +17,10 @@
 //! decide, counted but not asked about.
 //!
 //! Moved is either end of the ray to the light, by a millionth of the scene's size: the light's, and the
-//! surface's, where the eye would see it were it that much nearer, farther, or beside. Beside, by the 256th part of
-//! a pixel at least, it must still begin on the same triangle: a rasteriser moves corners to the nearest such
-//! place. It may give what lies on the joint of two triangles to the one and the edge of a volume that begins there
-//! to the other; and what lies beside a silhouette to the triangle that ends there, with a depth from beyond its
-//! edge.
+//! surface's, where the eye would see it were it that much nearer, farther, or beside. Beside, it must
+//! still begin on the same triangle: a rasteriser moves corners to the nearest 256th of a pixel, and may
+//! give what lies on the joint of two triangles to the one and the edge of a volume that begins there to
+//! the other.
 //!
 //! ```no_run
 //! # use obscura::{frame::Camera, scene::{Pose, Scene}, truth::World};
