@@ -91,6 +91,38 @@ fn where_two_triangles_join_a_rasteriser_may_take_either() {
     }
 }
 
+/// Two sheets of one mesh, the border of the left one at x = 0.
+fn sheets(right: [[f32; 3]; 4]) -> Build {
+    let mut build = Build::new();
+    let left = [[-3.0, -3.0, 0.0], [0.0, -3.0, 0.0], [0.0, 3.0, 0.0], [-3.0, 3.0, 0.0]];
+    let corners: Vec<_> = left.into_iter().chain(right).collect();
+    let sheets = mesh("sheets", &corners, &[[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]], 0);
+    let sheets = build.mesh(sheets);
+    build.place(sheets, DVec3::ZERO, DVec3::ONE);
+    build.point_light(DVec3::new(0.3, 0.2, 9.0));
+    build
+}
+
+#[test]
+fn outlines_within_one_object_are_edges_and_joints_are_not() {
+    // A pixel is 0.02 wide here: its places lie 0.005 beside its centre.
+    let at = |build: &Build, x: f64| {
+        let pose = pose::pose(&build.0, 0.0, build.0.default_animation, &BTreeMap::new());
+        let fov = 2.0 * (0.01f64 * 33.0 / 5.0).atan();
+        let camera = Camera::look_at(DVec3::new(x, 0.1, 5.0), DVec3::new(x, 0.1, 0.0), fov, 1.0, 0.1).unwrap();
+        World::new(&build.0, &pose).judge(&camera, &pose.lights[0], [33, 33]).pixels()[16 * 33 + 16]
+    };
+    let behind = sheets([[-1.0, -3.0, -0.2], [3.0, -3.0, -0.2], [3.0, 3.0, -0.2], [-1.0, 3.0, -0.2]]);
+    let folded = sheets([[0.0, -3.0, 0.0], [3.0, -3.0, -2.0], [3.0, 3.0, -2.0], [0.0, 3.0, 0.0]]);
+    for x in [-0.003, 0.003] {
+        assert_eq!(at(&behind, x), Verdict::Edge, "{x}: the left one's outline is in the pixel");
+        assert_eq!(at(&folded, x), Verdict::Lit, "{x}: the sheet goes on");
+    }
+    for x in [-0.05, 0.5] {
+        assert_eq!(at(&behind, x), Verdict::Lit, "{x}");
+    }
+}
+
 #[test]
 fn rays_know_culling_the_near_plane_and_what_is_blended() {
     let below = (DVec3::new(0.5, 0.5, 0.5), DVec3::new(0.3, 2.0, 0.3));

@@ -185,12 +185,31 @@ impl World {
                     path.push(mirror);
                     eye = eye.reflected(mirror, plane);
                 }
+                Towards::Back if self.outlined(&eye, &directions, &nearest) => return None,
                 Towards::Back => {
                     let alone = !nearest.iter().any(|met| tied(&met));
                     return Some(Shown { path, eye, directions, nearest, alone });
                 }
             }
         }
+    }
+
+    /// Whether an outline runs between what the first ray meets and what another does, both of one instance: the one
+    /// ends before the other. Where they join in an edge, or are bent towards each other, their planes meet between the
+    /// rays; where one stands before the other, they do not.
+    fn outlined<const RAYS: usize>(&self, eye: &Eye, directions: &[DVec3; RAYS], nearest: &[Nearest; RAYS]) -> bool {
+        /// Of a depth: what double precision may be wrong by.
+        const ROUNDING: f64 = 1e-9;
+        let (first, center) = (nearest[0], directions[0]);
+        directions.iter().zip(nearest).skip(1).filter(|(_, met)| met.face != first.face && first.face != NONE).any(
+            |(beside, met)| {
+                let planes = [first.face, met.face].map(|face| self.faces[face as usize].from(eye.at));
+                // One over depth changes in proportion over the picture.
+                let nearer = |direction: DVec3| planes[0].nearness(direction) - planes[1].nearness(direction);
+                let (here, there) = (nearer(center) * first.depth, nearer(*beside) * first.depth);
+                here * there > 0.0 && here.abs().min(there.abs()) > ROUNDING
+            },
+        )
     }
 
     /// The nearest surface in each of some directions, all of them within `spread` of the first, metres for

@@ -6,15 +6,15 @@
 //! ```text
 //!        eye  --------- centre and four points 1/4 pixel around it ------> surface
 //!                                                                             |
-//!      light  <-- from each of them; and to where the light stands <----------+
+//!      light  <-- from each of the five; and to where the light stands <------+
 //!                 when it is moved by a millionth of the scene's size
 //! ```
 //!
-//! Four more rays by the 256th part of a pixel beside the centre find what is thin and close by: a rasteriser moves
-//! corners to the nearest such place, and may give the pixel to it. Only where all of them agree the pixel is
-//! *decided*: a picture that says otherwise there is wrong, and one wrong pixel is too many. Where they do not, an
-//! outline or the border of a shadow passes through the pixel: an [edge](Verdict::Edge), about which rounding may
-//! decide, counted but not asked about.
+//! Only where all of them agree the pixel is *decided*: a picture that says otherwise there is wrong,
+//! and one wrong pixel is too many. Where they do not, an outline or the border of a shadow passes
+//! through the pixel: an [edge](Verdict::Edge), about which rounding may decide, counted but not asked
+//! about. An outline may run within one object too, where one part of it stands before another: there the planes
+//! of what two rays meet do not meet between the rays, as they do where the parts join.
 //!
 //! Moved is either end of the ray to the light, by a millionth of the scene's size: the light's, and the
 //! surface's, where the eye would see it were it that much nearer, farther, or beside. Beside, it must
@@ -74,7 +74,7 @@
 //!
 //! # Fast enough
 //!
-//! Thirteen rays to the surface and nineteen to each light would be much for every pixel. But they run close
+//! Nine rays to the surface and fifteen to each light would be much for every pixel. But they run close
 //! together: the tree over the triangles is descended once for all of them, along the middle one with boxes grown by
 //! their distance from it, and only at the triangles are they told apart.
 

@@ -229,6 +229,12 @@ impl Asked {
         inside.then(|| Met { distance: self.height / determinant, counter_clockwise: determinant > 0.0 })
     }
 
+    /// One over the distance at which a ray meets the triangle's plane.
+    #[inline]
+    pub fn nearness(&self, direction: DVec3) -> f64 {
+        direction.dot(self.normal) / self.height
+    }
+
     /// The weights of the second and the third corner where the ray meets the triangle's plane.
     #[inline]
     pub fn weights(&self, direction: DVec3) -> DVec2 {
