@@ -14,24 +14,15 @@ use crate::frame::Camera;
 use crate::geometry::planar::{height, reflection};
 use crate::settings::MAX_BOUNCES;
 
-/// The places in a pixel where surfaces are looked for, pixels from its centre. The last four, by [`GRID`] to
-/// each side, find what is thinner than a pixel and passes close by the centre.
-pub const PLACES: [DVec2; 9] = [
+/// The places in a pixel where surfaces are looked for, pixels from its centre.
+pub const PLACES: [DVec2; 5] = [
     DVec2::ZERO,
     DVec2::new(-QUARTER, -QUARTER),
     DVec2::new(QUARTER, -QUARTER),
     DVec2::new(-QUARTER, QUARTER),
     DVec2::new(QUARTER, QUARTER),
-    DVec2::new(GRID, 0.0),
-    DVec2::new(-GRID, 0.0),
-    DVec2::new(0.0, GRID),
-    DVec2::new(0.0, -GRID),
 ];
 const QUARTER: f64 = 0.25;
-
-/// How far a border of a triangle may move along a row or a column of pixels when its corners are moved to the
-/// nearest 256th of a pixel, as rasterisers do: each by half of one across and half of one down.
-pub const GRID: f64 = 1.0 / 256.0;
 
 /// What a box is made larger by, of the world's size: much more than double precision is wrong by.
 pub const SLACK: f64 = 1e-9;
