@@ -25,10 +25,6 @@ const NUDGES: [DVec3; 4] = [DVec3::ONE, DVec3::NEG_ONE, DVec3::new(1.0, -1.0, 1.
 /// How far either end of the ray to the light is moved, of the scene's size (or of 1, for a direction).
 const NUDGE: f64 = 1e-6;
 
-/// How far a border of a triangle may move along a row or a column of pixels when its corners are moved to the
-/// nearest 256th of a pixel, as rasterisers do: each by half of one across and half of one down.
-const GRID: f64 = 1.0 / 256.0;
-
 /// How far before a surface the ray to the light starts, of its depth.
 const HAIR: f64 = 1e-7;
 
