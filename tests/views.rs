@@ -3,17 +3,17 @@
 
 mod common;
 
-use common::Stage;
-use glam::DMat4;
+use common::{Build, Stage, cube, mesh, seen_from};
+use glam::{DMat4, DVec3};
 use obscura::director;
 use obscura::frame::state::Winding;
 use obscura::frame::stencil::{BitBudget, StencilState};
 use obscura::frame::validate::validate;
-use obscura::frame::{Action, Capabilities, Draw, FramePlan, identity_color};
+use obscura::frame::{Action, Capabilities, Draw, FramePlan, Target, identity_color};
 use obscura::geometry::planar::reflection;
 use obscura::gpu::readback;
 use obscura::scene::{Scene, stock};
-use obscura::settings::{LastBounce, MirrorMode, Settings, Show, Technique};
+use obscura::settings::{LastBounce, LightEdit, MirrorMode, MirrorPlace, Settings, Show, Technique, Texturing};
 
 const SIZE: [u32; 2] = [320, 180];
 
@@ -186,6 +186,40 @@ fn unbounded_reflections_show_beside_their_mirror() {
         picture(MirrorMode::Unbounded, Show::Surfaces) == picture(MirrorMode::Stencil, Show::Surfaces),
         "exact values are shown by the stencil"
     );
+}
+
+/// A cube before a mirror, one light: drawn at once in final colours, and by adding up light, the picture is the same;
+/// with shadows, without, and where the light's end leaves none to count.
+#[test]
+fn perfect_mirrors_look_the_same_drawn_directly_or_added_up() {
+    let mut build = Build::new();
+    build.floor(0.0, 9.0);
+    let block = build.mesh(cube(0));
+    build.place(block, DVec3::new(0.6, 1.0, 0.0), DVec3::splat(0.6));
+    let corners = [[-2.5, 0.1, -3.0], [2.5, 0.1, -3.0], [2.5, 3.0, -3.0], [-2.5, 3.0, -3.0]];
+    let pane = build.mesh(mesh("mirror", &corners, &[[0, 1, 2], [0, 2, 3]], 0));
+    let node = build.place(pane, DVec3::ZERO, DVec3::ONE);
+    let light = build.point_light(DVec3::new(2.0, 4.0, 1.5));
+    let scene = build.0;
+    let mut stage = Stage::new();
+    stage.set_scene(&scene);
+    let eye = seen_from(DVec3::new(-1.5, 2.0, 5.0), DVec3::new(0.3, 1.0, -1.0), SIZE);
+    for (shadows, range) in [(true, None), (false, None), (true, Some(2.5)), (true, Some(0.01))] {
+        for technique in [Technique::Auto, Technique::ZFail, Technique::None] {
+            let mut settings = Settings { technique, ..eye.clone() };
+            settings.mirrors.edits.insert(MirrorPlace { node, primitive: 0 }, true);
+            settings.lights.insert(light, LightEdit { shadows: Some(shadows), range, ..LightEdit::default() });
+            let direct = stage.shoot(&settings, &scene);
+            assert_eq!(direct.plan.views.len(), 2);
+            assert!(direct.plan.draws().any(|(_, draw)| draw.target == Target::Direct), "it is drawn directly");
+            settings.lighting.texturing = Texturing::Once;
+            let added = stage.shoot(&settings, &scene);
+            assert!(added.plan.draws().all(|(_, draw)| draw.target != Target::Direct), "light is added up");
+            let pairs = direct.image.as_raw().iter().zip(added.image.as_raw());
+            let apart = pairs.filter(|(a, b)| a.abs_diff(**b) > 2).count();
+            assert_eq!(apart, 0, "{} {shadows} {range:?}", technique.name());
+        }
+    }
 }
 
 fn draw_of<'a>(plan: &'a mut FramePlan, label: &str) -> &'a mut Draw {

@@ -16,7 +16,7 @@ use crate::techniques::above::above_rooms;
 use crate::techniques::mirrors::{self, Cover};
 use crate::techniques::own_bits::{Round, Shining};
 use crate::techniques::surfaces::{self, SurfaceGroup, Tint};
-use crate::techniques::{birdseye, bounds, show, surfaces as drawn};
+use crate::techniques::{birdseye, bounds, show};
 
 /// One view's surfaces.
 struct Stage {
@@ -31,21 +31,19 @@ struct Stage {
 impl Frame<'_> {
     /// The whole frame but its last step, which makes the picture of it; true where there is nothing left to do.
     pub(super) fn draw_reflections(&mut self) -> bool {
-        self.start(0);
         match self.settings.show {
             Show::Final if self.may_reflect_directly() => {
-                self.plan.steps.clear();
                 self.clear_all([0.0, 0.0, 0.0, 1.0], 0);
                 self.draw_view(true);
                 self.push(show::background(self.whole()));
                 true
             }
             Show::Final | Show::Volumes | Show::Wireframe => {
+                self.start(0);
                 self.draw_view(false);
                 false
             }
             _ => {
-                self.plan.steps.clear();
                 self.draw_exactly();
                 true
             }
@@ -96,18 +94,19 @@ impl Frame<'_> {
             self.draw_textures(&stage.open);
         }
         // The eye's own way of drawing directly asks for counts that are not zero, which in a mirror it cannot.
-        let depth_first = direct && is_eye && self.pose.lights.iter().any(|light| light.on && light.shadows);
+        let only = if direct && is_eye { self.rounds().pop() } else { None };
+        let depth_first = only.as_ref().is_some_and(|round| round.lights.iter().any(|shining| shining.budget.is_some()));
         if direct {
-            let depth = drawn::depth(&stage.plain, depth_first, whole);
+            let depth = surfaces::depth(&stage.plain, depth_first, whole);
             self.extend_onto(Target::Direct, depth);
             if !depth_first {
-                self.extend(drawn::finished(&stage.plain, None, whole));
+                self.extend(surfaces::finished(&stage.plain, None, whole));
             }
-            let grey = drawn::finished(&stage.grey, None, whole);
+            let grey = surfaces::finished(&stage.grey, None, whole);
             self.extend_grey(&stage.grey, grey);
         } else {
-            self.extend(drawn::ambient(&stage.plain, whole));
-            let grey = drawn::ambient(&stage.grey, whole);
+            self.extend(surfaces::ambient(&stage.plain, whole));
+            let grey = surfaces::ambient(&stage.grey, whole);
             self.extend_grey(&stage.grey, grey);
         }
         if textured {
@@ -115,13 +114,14 @@ impl Frame<'_> {
             self.extend(laid);
         } else if !unbounded {
             let (target, cover) = if direct { (Target::Direct, Cover::Finished) } else { (Target::Scene, Cover::Light) };
-            let open = stage.open.iter().map(|(group, _)| drawn::lay(group, whole)).collect();
+            let open = stage.open.iter().map(|(group, _)| surfaces::lay(group, whole)).collect();
             self.extend_onto(target, open);
             self.draw_children(&stage.open, |frame| frame.draw_view(direct), cover);
         }
 
         if direct {
-            self.light_directly(&stage.plain, depth_first);
+            let round = if is_eye { only } else { self.rounds().pop() };
+            self.light_directly(&stage.plain, round, depth_first);
             return;
         }
         for (group, child) in &stage.open {
@@ -137,25 +137,24 @@ impl Frame<'_> {
             for Shining { light, rect, budget } in lights {
                 let once = budget.map_or_else(|| self.unused_bit(Some(light)), StencilState::light_once);
                 let (reached, shape) = (self.reached(light), (&self.pose.lights[light]).into());
-                self.extend(drawn::lit(&stage.plain, light, shape, rect, once, &reached));
+                self.extend(surfaces::lit(&stage.plain, light, shape, rect, once, &reached));
                 let mirrors = stage.grey.iter().chain(stage.open.iter().map(|(group, _)| group));
                 let own = mirrors.filter(|group| group.mirror().is_some_and(|mirror| !self.mirrors.is_perfect(mirror)));
-                let lit = |group| self.mirrors.lit(group, drawn::lit([group], light, shape, rect, once, &reached));
+                let lit = |group| self.mirrors.lit(group, surfaces::lit([group], light, shape, rect, once, &reached));
                 let steps = own.flat_map(lit).collect();
                 self.extend(steps);
             }
         }
-        if drawn::textured_last(&stage.plain) {
+        if surfaces::textured_last(&stage.plain) {
             let once = self.unused_bit(None);
-            self.extend(drawn::textures(&stage.plain, once, whole));
+            self.extend(surfaces::textures(&stage.plain, once, whole));
         }
-        self.extend(drawn::transparent(self.known(), self.view(), whole));
+        self.extend(surfaces::transparent(self.known(), self.view(), whole));
     }
 
     /// The frame's one light, over surfaces in their final colour.
-    fn light_directly(&mut self, groups: &[SurfaceGroup], depth_first: bool) {
+    fn light_directly(&mut self, groups: &[SurfaceGroup], round: Option<Round>, depth_first: bool) {
         let whole = self.whole();
-        let round = self.rounds().pop();
         if let Some(round) = &round {
             self.start_round(round);
         }
@@ -171,9 +170,9 @@ impl Frame<'_> {
             dark: budget.map(|budget| surfaces::Dark { budget, scissor: whole }),
         });
         if depth_first {
-            self.extend(drawn::finished(groups, only.as_ref(), whole));
+            self.extend(surfaces::finished(groups, only.as_ref(), whole));
         } else if let Some(only) = &only {
-            self.extend(drawn::relit(groups, only, shining.map_or(whole, |shining| shining.rect)));
+            self.extend(surfaces::relit(groups, only, shining.map_or(whole, |shining| shining.rect)));
         }
     }
 
@@ -191,7 +190,7 @@ impl Frame<'_> {
         }
         self.used = u8::MAX;
         let whole = self.whole();
-        self.extend(open.iter().map(|(group, _)| drawn::lay(group, whole)).collect());
+        self.extend(open.iter().map(|(group, _)| surfaces::lay(group, whole)).collect());
         let dimmed = open.iter().filter_map(|(group, child)| self.mirrors.dim(group, &self.plan, *child));
         let dimmed = dimmed.collect();
         self.extend(dimmed);
@@ -252,9 +251,9 @@ impl Frame<'_> {
     fn draw_identities(&mut self) {
         let whole = self.whole();
         let stage = self.stage(Texturing::EachLight);
-        self.extend(drawn::identities(&stage.plain, whole));
-        self.extend(drawn::identities(&stage.grey, whole));
-        let open = stage.open.iter().map(|(group, _)| drawn::lay(group, whole)).collect();
+        self.extend(surfaces::identities(&stage.plain, whole));
+        self.extend(surfaces::identities(&stage.grey, whole));
+        let open = stage.open.iter().map(|(group, _)| surfaces::lay(group, whole)).collect();
         self.extend(open);
         self.draw_children(&stage.open, Self::draw_identities, Cover::Value([0.0; 4]));
     }
@@ -269,9 +268,9 @@ impl Frame<'_> {
             color: [r, g, b, 1.0],
             inside: false,
         };
-        self.extend(drawn::tinted(&stage.plain, &tint, |_| true, whole));
-        self.extend(drawn::tinted(&stage.grey, &Tint { color: NO_VIEW, ..tint }, |_| true, whole));
-        let open = stage.open.iter().map(|(group, _)| drawn::lay(group, whole)).collect();
+        self.extend(surfaces::tinted(&stage.plain, &tint, |_| true, whole));
+        self.extend(surfaces::tinted(&stage.grey, &Tint { color: NO_VIEW, ..tint }, |_| true, whole));
+        let open = stage.open.iter().map(|(group, _)| surfaces::lay(group, whole)).collect();
         self.extend(open);
         self.draw_children(&stage.open, Self::draw_paths, Cover::Value(UNSEEN));
     }
@@ -303,7 +302,7 @@ impl Frame<'_> {
             let [r, g, b] = path_color(self.view().path());
             let why = "Every view's room in its colour, where it seems to stand.";
             let tint = Tint { label: "room", why, color: [r, g, b, 1.0], inside: false };
-            self.extend(drawn::tinted(&groups, &tint, |_| true, self.whole()));
+            self.extend(surfaces::tinted(&groups, &tint, |_| true, self.whole()));
             if above.cut.is_some() {
                 self.extend(bounds::cut(&groups, self.whole()));
             }
@@ -336,14 +335,14 @@ impl Frame<'_> {
         let all: Vec<&SurfaceGroup> =
             stage.plain.iter().chain(&stage.grey).chain(stage.open.iter().map(|(group, _)| group)).collect();
         if stencil {
-            self.extend(drawn::ambient(all.iter().copied(), whole));
+            self.extend(surfaces::ambient(all.iter().copied(), whole));
         } else {
-            self.extend(all.iter().map(|group| drawn::lay(group, whole)).collect());
+            self.extend(all.iter().map(|group| surfaces::lay(group, whole)).collect());
         }
         self.extend(count.steps);
         if !stencil && let Some(scissor) = self.light_rect(light) {
             for group in &all {
-                self.extend(drawn::verdict(std::slice::from_ref(*group), light, scissor, count.budget));
+                self.extend(surfaces::verdict(std::slice::from_ref(*group), light, scissor, count.budget));
             }
         }
         let color = if stencil { [0.0; 4] } else { [MID_GREY, MID_GREY, MID_GREY, 1.0] };

@@ -12,7 +12,7 @@ use crate::techniques::{self, bounds};
 impl Frame<'_> {
     /// Makes sure that the light whose volumes are shown has some, even when nothing counted them.
     pub(super) fn plan_glass(&mut self, light: usize) {
-        if !self.plan.volumes.iter().any(|volume| volume.light == light) {
+        if !self.plan.volumes.iter().any(|volume| volume.view == 0 && volume.light == light) {
             self.count_by(techniques::row(Technique::ZPass), light);
         }
     }

@@ -225,10 +225,10 @@ impl Report {
     }
 }
 
-/// The plan's volumes, gathered by light, method and reason.
+/// The volumes of the eye's own view, gathered by light, method and reason.
 fn volumes(scene: &Scene, plan: &FramePlan) -> Vec<LightReport> {
     let mut lights: BTreeMap<usize, BTreeMap<(Method, Reason), usize>> = BTreeMap::new();
-    for volume in &plan.volumes {
+    for volume in plan.volumes.iter().filter(|volume| volume.view == 0) {
         *lights.entry(volume.light).or_default().entry((volume.method, volume.reason)).or_default() += 1;
     }
     lights
@@ -245,11 +245,11 @@ fn volumes(scene: &Scene, plan: &FramePlan) -> Vec<LightReport> {
         .collect()
 }
 
-/// Every planned caster of every light of the scene.
+/// Every planned caster of every light of the scene, as the eye's own view counts it.
 #[must_use]
 pub fn casters(scene: &Scene, plan: &FramePlan) -> Vec<CasterReport> {
     let names: Vec<_> = scene.instances().map(|(_, node, _)| node.name.as_str()).collect();
-    let of_scene = plan.volumes.iter().filter(|volume| volume.light < scene.lights.len());
+    let of_scene = plan.volumes.iter().filter(|volume| volume.view == 0 && volume.light < scene.lights.len());
     of_scene
         .map(|volume| CasterReport {
             caster: names.get(volume.instance).copied().unwrap_or_default().into(),

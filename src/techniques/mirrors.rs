@@ -22,7 +22,7 @@ use glam::Vec3;
 
 use super::surfaces::{SurfaceGroup, step};
 use crate::frame::plan::{FramePlan, View};
-use crate::frame::state::{Blend, Compare, Cull, Depth, DepthBias, NearPlane, State, Winding};
+use crate::frame::state::{Blend, Compare, Depth, DepthBias, State};
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{Action, Draw, DrawSet, Look, MirrorLook, Program, Step, Surface, Target};
 use crate::scene::{Mirror, Pose, PosedMirror, Scene};
@@ -193,9 +193,7 @@ impl Mirrors {
         };
         Step { view: parent_number(to), ..step(format!("untag {}", to.name), why, draw) }
     }
-}
 
-impl Mirrors {
     /// The mirror's surface over a reflection that nothing bounds: how much of it the mirror shows.
     #[must_use]
     pub fn dim(&self, group: &SurfaceGroup, plan: &FramePlan, child: usize) -> Option<Step> {
@@ -255,17 +253,18 @@ pub fn cover(view: &View, cover: Cover) -> Step {
         Cover::Finished => (Program::Background, Target::Direct, [0.0; 4]),
         Cover::Value(value) => (Program::Dark, Target::Scene, value),
     };
-    let state = State { depth: INFINITY, color: Some(Blend::Replace), ..FLAT };
+    let state = State { depth: INFINITY, color: Some(Blend::Replace), ..State::FLAT };
     let why = "Depth to infinity and the background, in the mirror's pixels: the reflection is drawn as if nothing were there.";
-    step(format!("begin {}", view.name), why, full_screen(program, target, state, view.rect, constant))
+    let draw = Draw { target, state, constant, ..Draw::plain(program, DrawSet::FullScreen, view.rect) };
+    Step::drawing(format!("begin {}", view.name), why, draw)
 }
 
 /// All bits but the mirrors' to one value, in the pixels of one view: what a clear would do to all of them.
 #[must_use]
 pub fn reset(label: String, why: &str, budget: BitBudget, value: u8, rect: [u32; 4]) -> Step {
-    let state = State { stencil: StencilState::set_all(budget), ..FLAT };
-    let draw = full_screen(Program::StencilOnly, Target::Scene, state, rect, [0.0; 4]);
-    step(label, why, Draw { stencil_reference: value, ..draw })
+    let state = State { stencil: StencilState::set_all(budget), ..State::FLAT };
+    let draw = Draw::plain(Program::StencilOnly, DrawSet::FullScreen, rect);
+    Step::drawing(label, why, Draw { state, stencil_reference: value, ..draw })
 }
 
 /// The step in one view only: its pixels, told by their mirror bits.
@@ -282,20 +281,6 @@ pub fn keep_in_view(step: &mut Step, view: usize, views: &[View], budget: BitBud
             draw.state.stencil = stencil;
         }
     }
-}
-
-const FLAT: State = State {
-    depth: Depth::IGNORE,
-    stencil: StencilState::IGNORE,
-    color: None,
-    cull: Cull::None,
-    winding: Winding::Ccw,
-    near_plane: NearPlane::Clip,
-};
-
-fn full_screen(program: Program, target: Target, state: State, scissor: [u32; 4], constant: [f32; 4]) -> Draw {
-    let look = Look::default();
-    Draw { program, look, target, state, stencil_reference: 0, scissor, light: None, constant, set: DrawSet::FullScreen }
 }
 
 fn parent_number(view: &View) -> usize {

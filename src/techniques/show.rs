@@ -5,7 +5,7 @@ use crate::frame::state::{Blend, Depth, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{Action, Draw, DrawSet, Gather, Method, Part, Program, Step, Target, VolumePart};
 
-/// One light's volumes as coloured glass over the picture (M image 2).
+/// One light's volumes as coloured glass over the picture (M image 2): those of the eye's own view.
 #[must_use]
 pub fn volumes(plans: &[VolumePlan], light: usize, scissor: [u32; 4]) -> Vec<Step> {
     let mut steps = Vec::new();
@@ -13,7 +13,9 @@ pub fn volumes(plans: &[VolumePlan], light: usize, scissor: [u32; 4]) -> Vec<Ste
         let parts: Vec<_> = plans
             .iter()
             .enumerate()
-            .filter(|(_, plan)| plan.light == light && plan.method != Method::Dropped && plan.winding == winding)
+            .filter(|(_, plan)| {
+                plan.view == 0 && plan.light == light && plan.method != Method::Dropped && plan.winding == winding
+            })
             .flat_map(|(volume, _)| {
                 [Part::Sides, Part::LightCapKept, Part::LightCapTurned].map(|part| VolumePart { volume, part })
             })

@@ -43,7 +43,7 @@ pub fn culling(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
 fn table(ui: &mut Ui, desk: &Desk<'_>, view: &View<'_>) {
     let (Some(scene), Some(plan)) = (view.scene, view.plan) else { return };
     let light = desk.settings.light;
-    let of_light = || plan.volumes.iter().filter(move |volume| volume.light == light);
+    let of_light = || plan.volumes.iter().filter(move |volume| volume.view == 0 && volume.light == light);
     let dropped = of_light().filter(|volume| volume.method == Method::Dropped).count();
     let name = scene.lights.get(light).map_or("", |light| light.name.as_str());
     explain(ui, format!("Light {light}, {name}: {} casters, {dropped} of them left out.", of_light().count()));
