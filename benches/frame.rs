@@ -6,23 +6,14 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use obscura::director;
-use obscura::gpu::{Context, Renderer};
+use obscura::gpu::{Context, Renderer, readback};
 use obscura::scene::stock;
 use obscura::settings::{LightEdit, Settings, Technique};
 
 fn frames(criterion: &mut Criterion) {
     let context = Context::headless(None).unwrap();
     println!("on {}", context.capabilities().adapter);
-    let texture = context.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("bench"),
-        size: wgpu::Extent3d { width: 1280, height: 720, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: obscura::gpu::readback::PICTURE_FORMAT,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
-        view_formats: &[],
-    });
+    let texture = readback::target(&context, [1280, 720]);
     let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
     for row in stock::TABLE {
         let scene = stock::build(row.name).unwrap().unwrap();
@@ -42,7 +33,7 @@ fn frames(criterion: &mut Criterion) {
                     let position = Some(home + glam::DVec3::new(angle.cos(), 0.0, angle.sin()) * 0.3);
                     settings.lights.insert(0, LightEdit { position, ..LightEdit::default() });
                     let (pose, plan) = director::stage(&settings, &scene, context.capabilities()).unwrap();
-                    renderer.render(&context, &plan, &scene, &pose, &view, obscura::gpu::readback::PICTURE_FORMAT).unwrap();
+                    renderer.render(&context, &plan, &scene, &pose, &view, readback::PICTURE_FORMAT).unwrap();
                     context.wait_idle().unwrap();
                 });
             });

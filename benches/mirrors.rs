@@ -19,16 +19,7 @@ const FRAMES: [(&str, &[u32]); 3] = [("figure3", &[0, 1]), ("barbershop", &[0, 1
 fn frames(criterion: &mut Criterion) {
     let context = Context::headless(None).unwrap();
     println!("on {}", context.capabilities().adapter);
-    let texture = context.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("bench"),
-        size: wgpu::Extent3d { width: 1280, height: 720, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: readback::PICTURE_FORMAT,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
-        view_formats: &[],
-    });
+    let texture = readback::target(&context, [1280, 720]);
     let target = texture.create_view(&wgpu::TextureViewDescriptor::default());
     for (name, all) in FRAMES {
         let scene = stock::build(name).unwrap().unwrap();

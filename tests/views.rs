@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Build, Stage, cube, mesh, seen_from};
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec3, Vec3, Vec4};
 use obscura::director;
 use obscura::frame::state::Winding;
 use obscura::frame::stencil::{BitBudget, StencilState};
@@ -12,7 +12,7 @@ use obscura::frame::validate::validate;
 use obscura::frame::{Action, Capabilities, Draw, FramePlan, Target, identity_color};
 use obscura::geometry::planar::reflection;
 use obscura::gpu::readback;
-use obscura::scene::{Scene, stock};
+use obscura::scene::{Material, Mirror, Reflective, Scene, stock};
 use obscura::settings::{LastBounce, LightEdit, MirrorMode, MirrorPlace, Settings, Show, Technique, Texturing};
 
 const SIZE: [u32; 2] = [320, 180];
@@ -220,6 +220,44 @@ fn perfect_mirrors_look_the_same_drawn_directly_or_added_up() {
             assert_eq!(apart, 0, "{} {shadows} {range:?}", technique.name());
         }
     }
+}
+
+/// A dark floor that reflects a glowing wall: with Fresnel it shows as much of it as one without whose reflectivity is
+/// Schlick's of the angle at which the pixel sees it.
+#[test]
+fn fresnel_reflects_as_schlick_says() {
+    const STRAIGHT: f64 = 0.1;
+    let mut build = Build::new();
+    build.floor(0.0, 30.0);
+    build.0.materials[0].base_color = Vec4::new(0.0, 0.0, 0.0, 1.0);
+    build.0.materials.push(Material { emissive: Vec3::splat(0.8), ..Material::default() });
+    let corners = [[-60.0, 0.0, -25.0], [60.0, 0.0, -25.0], [60.0, 90.0, -25.0], [-60.0, 90.0, -25.0]];
+    let wall = build.mesh(mesh("wall", &corners, &[[0, 1, 2], [0, 2, 3]], 2));
+    build.place(wall, DVec3::ZERO, DVec3::ONE);
+    let mut scene = build.0;
+    let floor = scene.nodes.iter().position(|node| node.mesh == Some(0)).unwrap();
+    let mut stage = Stage::new();
+    stage.set_scene(&scene);
+    let mut seen = Vec::new();
+    for (eye, target) in
+        [([0.0, 2.0, 8.0], [0.0, 0.0, -4.0]), ([1.0, 3.0, 4.0], [0.0, 0.0, 1.0]), ([0.0, 0.5, 9.0], [0.0, 0.0, 2.0])]
+    {
+        let (eye, target) = (DVec3::from(eye), DVec3::from(target));
+        let cosine = (eye - target).normalize().y;
+        let schlick = STRAIGHT + (1.0 - STRAIGHT) * (1.0 - cosine).powi(5);
+        let mut middle = |reflectivity: f64, fresnel| {
+            let look = Reflective { reflectivity: reflectivity as f32, ..Reflective::default() };
+            scene.mirrors = vec![Mirror::of(&scene, floor, 0, look).unwrap()];
+            let mut settings = seen_from(eye, target, [81, 61]);
+            settings.mirrors.fresnel = fresnel;
+            stage.shoot(&settings, &scene).image.get_pixel(40, 30).0[0]
+        };
+        let (found, expected) = (middle(STRAIGHT, true), middle(schlick, false));
+        assert!(found.abs_diff(expected) <= 1, "{found} instead of {expected} at {target}");
+        assert!(found > middle(STRAIGHT, false), "it reflects more than straight in");
+        seen.push(found);
+    }
+    assert!(seen[0] > seen[1] && seen[2] > seen[0], "the more, the more obliquely: {seen:?}");
 }
 
 fn draw_of<'a>(plan: &'a mut FramePlan, label: &str) -> &'a mut Draw {

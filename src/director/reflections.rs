@@ -16,7 +16,7 @@ use crate::techniques::above::above_rooms;
 use crate::techniques::mirrors::{self, Cover};
 use crate::techniques::own_bits::{Round, Shining};
 use crate::techniques::surfaces::{self, SurfaceGroup, Tint};
-use crate::techniques::{birdseye, bounds, show};
+use crate::techniques::{birdseye, bounds, cases, show};
 
 /// One view's surfaces.
 struct Stage {
@@ -239,7 +239,7 @@ impl Frame<'_> {
                 self.push(show::copy(self.whole()));
             }
             Show::Views => {
-                self.clear_all(UNSEEN, 0);
+                self.clear_all(cases::BACKGROUND, 0);
                 self.draw_paths();
                 self.push(show::copy(self.whole()));
             }
@@ -261,7 +261,7 @@ impl Frame<'_> {
     fn draw_paths(&mut self) {
         let whole = self.whole();
         let stage = self.stage(Texturing::EachLight);
-        let [r, g, b] = path_color(self.view().path());
+        let [r, g, b] = mirrors::path_color(self.view().path());
         let tint = Tint {
             label: "view",
             why: "Every surface in the colour of the mirrors on the way to it.",
@@ -269,10 +269,10 @@ impl Frame<'_> {
             inside: false,
         };
         self.extend(surfaces::tinted(&stage.plain, &tint, |_| true, whole));
-        self.extend(surfaces::tinted(&stage.grey, &Tint { color: NO_VIEW, ..tint }, |_| true, whole));
+        self.extend(surfaces::tinted(&stage.grey, &Tint { color: mirrors::NO_VIEW, ..tint }, |_| true, whole));
         let open = stage.open.iter().map(|(group, _)| surfaces::lay(group, whole)).collect();
         self.extend(open);
-        self.draw_children(&stage.open, Self::draw_paths, Cover::Value(UNSEEN));
+        self.draw_children(&stage.open, Self::draw_paths, Cover::Value(cases::BACKGROUND));
     }
 
     /// Every view's room where it seems to stand, seen from above; and what the eye sees of each.
@@ -294,12 +294,12 @@ impl Frame<'_> {
             let name = before.name.replacen("eye", "above", 1);
             self.plan.views[number] = View { winding, through, ..View::of_eye(&name, camera, size) };
         }
-        self.clear_all(UNSEEN, 0);
+        self.clear_all(cases::BACKGROUND, 0);
         for number in 0..planned.len() {
             let view = (number, &self.plan.views[number]);
             self.outlook = Outlook::new(self.scene, self.pose, view, None);
             let groups = surfaces::opaque_groups(self.known(), self.view(), size, Texturing::EachLight);
-            let [r, g, b] = path_color(self.view().path());
+            let [r, g, b] = mirrors::path_color(self.view().path());
             let why = "Every view's room in its colour, where it seems to stand.";
             let tint = Tint { label: "room", why, color: [r, g, b, 1.0], inside: false };
             self.extend(surfaces::tinted(&groups, &tint, |_| true, self.whole()));
@@ -309,7 +309,7 @@ impl Frame<'_> {
         }
         self.outlook = Outlook::new(self.scene, self.pose, (0, &self.plan.views[0]), None);
         self.push(show::copy(self.whole()));
-        let strokes = birdseye::strokes((&above, &eye, self.pose), &planned, &self.sights, path_color, size);
+        let strokes = birdseye::strokes((&above, &eye, self.pose), &planned, &self.sights, mirrors::path_color, size);
         self.push(bounds::step(strokes, self.whole()));
     }
 
@@ -380,30 +380,4 @@ impl Frame<'_> {
 
 fn onto(target: Target, step: Step) -> Step {
     Step { action: step.action.onto(target), ..step }
-}
-
-/// Where a view shows nothing: a display value.
-const UNSEEN: [f32; 4] = [0.055, 0.06, 0.075, 1.0];
-
-/// A mirror past the last bounce: K's neutral grey.
-const NO_VIEW: [f32; 4] = [0.5, 0.5, 0.5, 1.0];
-
-/// A display colour for a path of mirrors: each mirror has a hue, each bounce turns it on and makes it paler.
-fn path_color(path: &[usize]) -> [f32; 3] {
-    if path.is_empty() {
-        return [0.78, 0.77, 0.74];
-    }
-    /// A turn by the golden section sets neighbours far apart.
-    const GOLDEN: f32 = 0.618_034;
-    #[expect(clippy::cast_precision_loss, reason = "a hue")]
-    let turned = path.iter().enumerate().map(|(bounce, mirror)| (*mirror as f32 + 1.0) * GOLDEN * (1.0 + 0.37 * bounce as f32));
-    let hue = turned.sum::<f32>().fract();
-    #[expect(clippy::cast_precision_loss, reason = "eight bounces at most")]
-    let depth = (path.len() - 1) as f32;
-    let (saturation, value) = (0.72 * 0.86f32.powf(depth), 0.95 * 0.93f32.powf(depth));
-    let channel = |offset: f32| {
-        let at = ((hue + offset).fract() * 6.0 - 3.0).abs() - 1.0;
-        value * (1.0 - saturation * (1.0 - at.clamp(0.0, 1.0)))
-    };
-    [channel(0.0), channel(2.0 / 3.0), channel(1.0 / 3.0)]
 }

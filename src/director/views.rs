@@ -10,7 +10,7 @@ use crate::geometry::planar::height;
 use crate::geometry::sight::{Sight, worst_case};
 use crate::geometry::{Aabb, Body};
 use crate::scene::{Pose, Scene};
-use crate::settings::{LEAST_TEXTURE, MOST_TEXTURE, MirrorMode, Show};
+use crate::settings::{AreaMode, LEAST_TEXTURE, MOST_TEXTURE, MirrorMode, Show};
 use crate::techniques;
 use crate::techniques::culling::Stalls;
 use crate::techniques::mirrors::Mirrors;
@@ -137,6 +137,10 @@ impl Frame<'_> {
         } else if deepest > 0 {
             self.plan.budget = self.plan.budget.with_mirrors(u32::try_from(deepest).unwrap_or(u32::MAX));
             let budget = self.plan.budget;
+            let has_extent = self.pose.lights.iter().any(|light| light.on && !light.extent.is_point());
+            if self.settings.lighting.area_mode == AreaMode::Bits && has_extent {
+                self.plan.notes.push("no bit for each point here: mirrors have taken bits of the stencil".into());
+            }
             for view in &mut self.plan.views {
                 if let Some(window) = &mut view.through {
                     window.level = budget.level(u32::try_from(window.path.len()).unwrap_or(0));

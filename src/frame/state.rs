@@ -70,6 +70,8 @@ impl Depth {
     /// What is counted by colour instead of stencil, behind the surface: all that [`Self::NEARER`]
     /// refuses.
     pub const NOT_NEARER: Self = Self::plain(Compare::LessEqual, false);
+    /// What takes the place of whatever is there: a mirror's pixels before and after its reflection.
+    pub const OVERWRITE: Self = Self::plain(Compare::Always, true);
     /// Full-screen steps, and whatever counts everywhere: depth has no say.
     pub const IGNORE: Self = Self::plain(Compare::Always, false);
 

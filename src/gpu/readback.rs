@@ -9,6 +9,21 @@ use crate::scene::{Pose, Scene};
 /// encode sRGB themselves.
 pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
+/// What a picture of so many pixels is drawn into.
+#[must_use]
+pub fn target(context: &Context, [width, height]: [u32; 2]) -> wgpu::Texture {
+    context.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("picture"),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: PICTURE_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
+}
+
 /// Draws the plan into a picture of its own and reads it back: sRGB, rows from the top, opaque.
 ///
 /// # Errors
@@ -21,16 +36,7 @@ pub fn picture(
     pose: &Pose,
 ) -> Result<(FrameStats, image::RgbaImage), GpuError> {
     let [width, height] = plan.size;
-    let texture = context.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("picture"),
-        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: PICTURE_FORMAT,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    });
+    let texture = target(context, plan.size);
     let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
     let mut stats = renderer.render(context, plan, scene, pose, &view, PICTURE_FORMAT)?;
     let pixels = read(context, &texture, wgpu::TextureAspect::All, 4, plan.size)?;

@@ -22,7 +22,7 @@ use glam::Vec3;
 
 use super::surfaces::{SurfaceGroup, step};
 use crate::frame::plan::{FramePlan, View};
-use crate::frame::state::{Blend, Compare, Depth, DepthBias, State};
+use crate::frame::state::{Blend, Depth, State};
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{Action, Draw, DrawSet, Look, MirrorLook, Program, Step, Surface, Target};
 use crate::scene::{Mirror, Pose, PosedMirror, Scene};
@@ -155,15 +155,13 @@ impl Mirrors {
         if self.is_perfect(mirror) && left >= 1.0 {
             return None;
         }
+        let draw = group.depth_draw(Depth::SAME_SURFACE, StencilState::IGNORE, scissor);
         let draw = Draw {
             program: Program::Own,
             look: Look { clipped: false, ..group.kind.look },
             constant: self.constant(mirror, left, exposure),
-            state: State {
-                color: Some(Blend::Add),
-                ..group.depth_draw(Depth::SAME_SURFACE, StencilState::IGNORE, scissor).state
-            },
-            ..group.depth_draw(Depth::SAME_SURFACE, StencilState::IGNORE, scissor)
+            state: State { color: Some(Blend::Add), ..draw.state },
+            ..draw
         };
         let why = "Adds the mirror's own look in ambient light to what it reflects.";
         Some(step(format!("own look{}", group.words()), why, draw))
@@ -182,10 +180,9 @@ impl Mirrors {
     /// The mirror's surface takes its place again: depth, the mirror bits, and how much of the reflection it shows.
     #[must_use]
     pub fn uncover(&self, group: &SurfaceGroup, plan: &FramePlan, child: usize, dims: bool) -> Step {
-        const AGAIN: Depth = Depth { compare: Compare::Always, write: true, bias: DepthBias::NONE };
         let (from, to) = (parent(plan, child), &plan.views[child]);
         let stencil = StencilState::through_mirror(plan.budget, to.level(), from.level());
-        let mut draw = Draw { stencil_reference: to.level(), ..group.depth_draw(AGAIN, stencil, to.rect) };
+        let mut draw = Draw { stencil_reference: to.level(), ..group.depth_draw(Depth::OVERWRITE, stencil, to.rect) };
         let why = if dims && self.multiply(group, to, &mut draw) {
             "The mirror's depth and tag are as they were before; the reflection is multiplied with how much the mirror shows."
         } else {
@@ -247,13 +244,12 @@ pub enum Cover {
 /// Depth back to infinity, and the background, in the pixels of the view that is begun.
 #[must_use]
 pub fn cover(view: &View, cover: Cover) -> Step {
-    const INFINITY: Depth = Depth { compare: Compare::Always, write: true, bias: DepthBias::NONE };
     let (program, target, constant) = match cover {
         Cover::Light => (Program::Backdrop, Target::Scene, [0.0; 4]),
         Cover::Finished => (Program::Background, Target::Direct, [0.0; 4]),
         Cover::Value(value) => (Program::Dark, Target::Scene, value),
     };
-    let state = State { depth: INFINITY, color: Some(Blend::Replace), ..State::FLAT };
+    let state = State { depth: Depth::OVERWRITE, color: Some(Blend::Replace), ..State::FLAT };
     let why = "Depth to infinity and the background, in the mirror's pixels: the reflection is drawn as if nothing were there.";
     let draw = Draw { target, state, constant, ..Draw::plain(program, DrawSet::FullScreen, view.rect) };
     Step::drawing(format!("begin {}", view.name), why, draw)
@@ -281,6 +277,30 @@ pub fn keep_in_view(step: &mut Step, view: usize, views: &[View], budget: BitBud
             draw.state.stencil = stencil;
         }
     }
+}
+
+/// A mirror past the last bounce, as `show views` has it: K's neutral grey, a display value.
+pub const NO_VIEW: [f32; 4] = [0.5, 0.5, 0.5, 1.0];
+
+/// A display colour for a path of mirrors: each mirror has a hue, each bounce turns it on and makes it paler.
+#[must_use]
+pub fn path_color(path: &[usize]) -> [f32; 3] {
+    if path.is_empty() {
+        return [0.78, 0.77, 0.74];
+    }
+    /// A turn by the golden section sets neighbours far apart.
+    const GOLDEN: f32 = 0.618_034;
+    #[expect(clippy::cast_precision_loss, reason = "a hue")]
+    let turned = path.iter().enumerate().map(|(bounce, mirror)| (*mirror as f32 + 1.0) * GOLDEN * (1.0 + 0.37 * bounce as f32));
+    let hue = turned.sum::<f32>().fract();
+    #[expect(clippy::cast_precision_loss, reason = "eight bounces at most")]
+    let depth = (path.len() - 1) as f32;
+    let (saturation, value) = (0.72 * 0.86f32.powf(depth), 0.95 * 0.93f32.powf(depth));
+    let channel = |offset: f32| {
+        let at = ((hue + offset).fract() * 6.0 - 3.0).abs() - 1.0;
+        value * (1.0 - saturation * (1.0 - at.clamp(0.0, 1.0)))
+    };
+    [channel(0.0), channel(2.0 / 3.0), channel(1.0 / 3.0)]
 }
 
 fn parent_number(view: &View) -> usize {
