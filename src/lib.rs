@@ -69,7 +69,7 @@
 //!
 //! ```text
 //!   view:   ambient light, depth
-//!           for each mirror that shows:  tag its pixels    one mirror bit, where depth is the mirror's
+//!           for each mirror that shows:  tag its pixels    its level, where depth is the mirror's
 //!                                        cover them        depth to infinity, background
 //!                                        view ...          the same again, seen by the reflected eye
 //!                                        uncover them      depth and tag as they were, the reflection dimmed
@@ -77,8 +77,8 @@
 //! ```
 //!
 //! Not the world is reflected but the eye ([`frame::Camera::reflected`]), so positions, volumes and lights stay what they
-//! are, and only windings change their sense. A step of a view asks for its level in the mirror bits; levels are in Gray
-//! code, so that one `Invert` leads from each to the next. Where exact values are shown the order is another: a view's
+//! are, and only windings change their sense. A step of a view asks for its level in the mirror bits; one
+//! `Invert` of the bits in which two levels differ leads from each to the other. Where exact values are shown the order is another: a view's
 //! count comes first, and its mirrors' views then take their pixels over.
 //!
 //! What lies behind a mirror's plane is left out fragment by fragment, not by clip distances: a triangle that is cut has
@@ -105,7 +105,7 @@
 //! ```text
 //!   bit   7 6 5 4 3 2 1 0
 //!         [  shadow count ]      modulo 256
-//!         m m m [ count   ]      mirrors seen in mirrors: their level in Gray code, as many bits as it takes; both
+//!         m m m [ count   ]      mirrors seen in mirrors: how deep, in as many bits as it takes; both
 //!                                below are then counted in what is left
 //!         V [shadow count ]      counting in batches: V, shadowed by a batch before; modulo 128
 //!         B [shadow count ]      within depth bounds: B, beyond the light's bounds, nothing is counted

@@ -1,12 +1,13 @@
 //! The stencil's eight bits: who owns them, the named operations, and words for people.
 //!
 //! This module owns the budget (DESIGN section 5); no other code writes a mask. Increment adds to the
-//! whole byte, so only the low field can count; it takes all bits that nobody else needs (mirrors will
+//! whole byte, so only the low field can count; it takes all bits that nobody else needs (mirrors
 //! take the high ones), or as many as the settings say.
 //!
 //! ```text
 //!   bit   7 6 5 4 3 2 1 0
 //!         [ shadow count  ]      modulo 256
+//!         m m [shadow count]     how many mirrors lie on the way; all others then have what is left
 //!         V [shadow count ]      V: shadowed by a batch before; modulo 128
 //!         B [shadow count ]      B: beyond the light's depth bounds; modulo 128
 //!         B V [shadow count ]    both; modulo 64
@@ -40,8 +41,8 @@ pub struct BitBudget {
     pub points_mask: u8,
     /// Whether the light has bounds that are marked there; others leave the bit as it is.
     pub bounded: bool,
-    /// The highest bits, or none: how many mirrors lie on the way from the eye to the pixel's surface, in Gray
-    /// code ([`Self::level`]).
+    /// The highest bits, or none: how many mirrors lie on the way from the eye to the pixel's surface
+    /// ([`Self::level`]).
     pub mirror_mask: u8,
 }
 
@@ -81,13 +82,11 @@ impl BitBudget {
         Self { count_mask: self.count_mask & !mirror_mask, mirror_mask, ..self }
     }
 
-    /// The mirror bits of pixels that are seen by way of so many mirrors. Neighbouring levels differ in one bit
-    /// (Gray 1953), so that one step with the operation `Invert` leads from either to the other, and asks for
-    /// all bits at the same time.
+    /// The mirror bits of pixels that are seen by way of so many mirrors. The operation `Invert` turns all bits of a
+    /// write mask over, so that one step asks for a level and leads to any other.
     #[must_use]
     pub const fn level(self, mirrors: u32) -> u8 {
-        let gray = mirrors ^ (mirrors >> 1);
-        (gray << self.mirror_mask.trailing_zeros()) as u8 & self.mirror_mask
+        (mirrors << self.mirror_mask.trailing_zeros()) as u8 & self.mirror_mask
     }
 
     /// The same with the highest bit that is left for what lies beyond the light's bounds; a field that took it
@@ -453,7 +452,7 @@ impl StencilState {
     }
 
     /// A mirror's surface, from its pixels in one view to those of the view through it, or back: passes where the
-    /// mirror bits are the reference and makes them `other`, which differs in one bit.
+    /// mirror bits are the reference and turns over those in which `other` differs.
     #[must_use]
     pub const fn through_mirror(budget: BitBudget, reference: u8, other: u8) -> Self {
         let face = StencilFace { pass: StencilOp::Invert, ..StencilFace::test(Compare::Equal) };

@@ -2,7 +2,7 @@
 //! anew, and then the mirror's own surface takes its place again.
 //!
 //! ```text
-//!   tag      the mirror's visible pixels: same depth, one mirror bit turned over
+//!   tag      the mirror's visible pixels: same depth, their level in the mirror bits
 //!   cover    depth back to infinity, and the background, there
 //!   ...      the reflected world, with its own mirrors and shadows: a view like the eye's own
 //!   uncover  the mirror's depth again, the bit turned back, the reflection dimmed and tinted
