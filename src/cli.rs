@@ -11,6 +11,7 @@
 mod command_line;
 mod counting;
 mod culling;
+mod halo;
 mod input;
 mod light_edit;
 mod lighting;
@@ -408,6 +409,8 @@ struct PictureArguments {
     culling: culling::CullingArguments,
     #[command(flatten)]
     mirrors: mirrors::MirrorArguments,
+    #[command(flatten)]
+    halos: halo::HaloArguments,
     /// The graphics adapter: part of its name
     #[arg(long, value_name = "SUBSTRING", allow_hyphen_values = true)]
     adapter: Option<String>,
@@ -432,6 +435,7 @@ impl PictureArguments {
                 counting: settings.counting,
                 culling: settings.culling,
                 mirrors: settings.mirrors.of_another_scene(),
+                halos: settings.halos.of_another_scene(),
                 adapter: settings.adapter,
                 shaders: settings.shaders,
                 ..Settings::default()
@@ -474,6 +478,7 @@ impl PictureArguments {
         self.counting.apply(&mut settings.counting)?;
         self.culling.apply(&mut settings.culling)?;
         self.mirrors.apply(&mut settings.mirrors)?;
+        self.halos.apply(&mut settings.halos);
         settings.adapter = self.adapter.clone().or(settings.adapter);
         settings.shaders = self.shaders.clone().or(settings.shaders);
         check(&settings)?;

@@ -4,6 +4,7 @@
 //! its steps, in order, and the result is plain data ([`FramePlan`]); [`stage`] adds what comes
 //! before (pose, camera) and after (validation), for the window and the headless commands alike.
 
+mod halos;
 mod reflections;
 mod rounds;
 mod shown;
@@ -242,6 +243,7 @@ pub fn plan(
                 }
             }
             frame.extend(transparent);
+            frame.draw_halos();
             frame.finish();
         }
         Show::Surfaces | Show::Views | Show::Birdseye => {}
@@ -263,6 +265,8 @@ struct Frame<'a> {
     /// What each view sees, where there are mirrors.
     sights: Vec<Sight>,
     mirrors: Mirrors,
+    /// Of each instance, whether it has a halo.
+    glowing: Vec<bool>,
     /// What the stencil was cleared to last, and which bits are no longer so.
     stored: u8,
     used: u8,
@@ -306,7 +310,8 @@ impl<'a> Frame<'a> {
         };
         let outlook = Outlook::new(scene, pose, (0, &plan.views[0]), None);
         let (sights, mirrors) = (Vec::new(), Mirrors::default());
-        let mut frame = Self { settings, scene, pose, capabilities, outlook, sights, mirrors, stored: 0, used: 0, plan };
+        let glowing = scene.glowing(&settings.halos.edits);
+        let mut frame = Self { settings, scene, pose, capabilities, outlook, sights, mirrors, glowing, stored: 0, used: 0, plan };
         frame.plan_views();
         frame.choose_bits();
         frame
@@ -314,6 +319,9 @@ impl<'a> Frame<'a> {
 
     /// One bit less to count in where lights' bounds are marked.
     fn choose_bits(&mut self) {
+        if self.has_halos() {
+            self.plan.budget = self.plan.budget.with_halos();
+        }
         if !self.settings.culling.depth_bounds || techniques::row(self.settings.technique).darkens.is_some() {
             return;
         }
@@ -353,7 +361,12 @@ impl<'a> Frame<'a> {
         let plan = &self.plan;
         let in_floats = plan.accumulation == Accumulation::Float;
         let textured = self.texturing() == Texturing::EachLight;
-        self.settings.show == Show::Final && plan.samples == 1 && plan.gather.is_none() && in_floats && textured
+        self.settings.show == Show::Final
+            && plan.samples == 1
+            && plan.gather.is_none()
+            && in_floats
+            && textured
+            && !self.has_halos()
     }
 
     /// How often surfaces are textured: exact values have no light to be multiplied.

@@ -55,7 +55,7 @@
 //!
 //! Ambient light lays depth. Then light by light: the stencil starts at how many volumes hold the eye (0
 //! unless counting starts there), the volumes are counted, and the light is added where the count is zero.
-//! Blended surfaces, overlays and the tone curve come last.
+//! Blended surfaces, halos ([`techniques::halo`]), overlays and the tone curve come last.
 //!
 //! A frame of one light at most, with nothing blended, goes a shorter way: the same count, but surfaces are
 //! drawn in their final colour straight into the picture. A light with a size stands in the pose as several
@@ -110,6 +110,7 @@
 //!         V [shadow count ]      counting in batches: V, shadowed by a batch before; modulo 128
 //!         B [shadow count ]      within depth bounds: B, beyond the light's bounds, nothing is counted
 //!         d c b a [ count ]      points of a light with a size, each with a bit of its own
+//!                   T g g        when all light is there: T, an object with a halo; g, the pixel glows
 //! ```
 //!
 //! [`frame::stencil`] owns them; no other code writes a mask. Counting wraps, so the order of faces does

@@ -5,11 +5,13 @@
 
 mod counting;
 mod culling;
+mod halo;
 mod lighting;
 mod mirrors;
 
 pub use counting::{Counting, MAX_COUNT_BITS, Overflow};
 pub use culling::{Culling, LightBounds};
+pub use halo::{Halos, MAX_HALO_WIDTH};
 pub use lighting::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
 pub use mirrors::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorMode, MirrorPlace, Mirrors};
 
@@ -67,6 +69,8 @@ pub struct Settings {
     pub culling: Culling,
     /// Which surfaces are mirrors, and how what is seen in them is drawn.
     pub mirrors: Mirrors,
+    /// What glows.
+    pub halos: Halos,
     /// Part of the name of the adapter to use.
     pub adapter: Option<String>,
     /// Shaders are read from here instead of the program, and again when they change.
@@ -96,6 +100,7 @@ impl Default for Settings {
             lighting: Lighting::default(),
             culling: Culling::default(),
             mirrors: Mirrors::default(),
+            halos: Halos::default(),
             adapter: None,
             shaders: None,
         }

@@ -46,6 +46,15 @@ fn plan(scene: &Scene, settings: &Settings) -> FramePlan {
     stage(settings, scene, &Capabilities::complete()).unwrap().1
 }
 
+/// What is seen of the varied scene where two of its objects glow.
+#[test]
+fn halos_come_last() {
+    let mut settings = Settings { size: [320, 180], ..Settings::default() };
+    settings.halos.edits = [(1, true), (4, true)].into();
+    settings.halos.width = 3.0;
+    assert_text("halo", &plan(&varied(), &settings));
+}
+
 fn assert_text(name: &str, plan: &FramePlan) {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/plans").join(format!("{name}.txt"));
     let text = plan.to_string();

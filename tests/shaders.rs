@@ -120,7 +120,7 @@ fn shared_structs_have_the_same_layout() {
         [position, inverse_range_squared, direction, cos_outer, intensity, inverse_cone_width, right, kind, slide, slide_scale]
     );
     same_layout!("volume.wgsl", "Volume", types::Volume, [light_in_object, end_in_object, thrown, object, by_matrix, extrusion]);
-    same_layout!("volume.wgsl", "Draw", types::Draw, [constant, light]);
+    same_layout!("volume.wgsl", "Draw", types::Draw, [constant, light, swell]);
     same_layout!("lit.wgsl", "Material", types::Material, [base_color, emissive, roughness, metallic, cutoff, unlit]);
 }
 

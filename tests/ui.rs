@@ -17,7 +17,7 @@ use obscura::frame::{Camera, Capabilities, FramePlan};
 use obscura::scene::stock::StockScene;
 use obscura::scene::{self, Light, LightKind, Node, Pose, PosedLight, Scene};
 use obscura::settings::{
-    CameraChoice, Failure, LastBounce, LightEdit, MirrorMode, MirrorPlace, Mirrors, SceneChoice, Settings, Show, Technique,
+    CameraChoice, Failure, Halos, LastBounce, LightEdit, MirrorMode, MirrorPlace, Mirrors, SceneChoice, Settings, Show, Technique,
 };
 use obscura::techniques::TABLE;
 use obscura::techniques::cases::{self, Class};
@@ -255,6 +255,23 @@ fn mirrors_are_chosen_and_told() {
         assert_eq!(mirrors(&harness), default, "{}", mirror.name);
     }
     assert_eq!(harness.state().actions, []);
+}
+
+#[test]
+fn halos_are_switched_for_each_object() {
+    let mut harness = open(reflecting("halo"));
+    harness.get_by_label("Halos").click();
+    harness.run_steps(3);
+    let scene = scene::stock::build("halo").unwrap().unwrap();
+    let node = |name: &str| scene.nodes.iter().position(|node| node.name == name).unwrap();
+    for (name, on) in [("column 0", true), ("floor", true)] {
+        harness.get_by_role_and_label(Role::CheckBox, &format!("Halo: {name}")).click();
+        harness.run_steps(3);
+        assert_eq!(settings(&harness).halos.edits, [(node(name), on)].into());
+        harness.get_by_role_and_label(Role::CheckBox, &format!("Halo: {name}")).click();
+        harness.run_steps(3);
+        assert_eq!(settings(&harness).halos, Halos::default());
+    }
 }
 
 /// Clicks where a point of the world is on the picture.

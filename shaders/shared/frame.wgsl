@@ -59,6 +59,10 @@ struct Volume {
 struct Draw {
     constant: vec4f,
     light: Light,
+    swell: f32,                 // pixels that swollen surfaces grow by
+    _pad0: f32,
+    _pad1: f32,
+    _pad2: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

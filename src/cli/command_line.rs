@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::{
-    counting as counting_options, culling as culling_options, light_edit, lighting as lighting_options,
+    counting as counting_options, culling as culling_options, halo as halo_options, light_edit, lighting as lighting_options,
     mirrors as mirror_options, needs_dot,
 };
 use crate::scene::AnimationChoice;
@@ -41,6 +41,7 @@ pub fn render_command(settings: &Settings) -> String {
         adapter,
         shaders,
         mirrors,
+        halos,
     } = settings;
     let default = Settings::default();
     let mut line = Line::default();
@@ -111,6 +112,7 @@ pub fn render_command(settings: &Settings) -> String {
     counting_options::write(counting, &mut line);
     culling_options::write(culling, &mut line);
     mirror_options::write(mirrors, &mut line);
+    halo_options::write(halos, &mut line);
     if let Some(adapter) = adapter {
         line.option("--adapter", adapter);
     }

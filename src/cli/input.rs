@@ -3,7 +3,7 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::{counting, lighting, mirrors};
+use super::{counting, halo, lighting, mirrors};
 use crate::scene::{AnimationChoice, LightKind, Scene};
 use crate::settings::{CameraChoice, LightEdit, MAX_SIZE, Settings, SlideChoice};
 
@@ -55,6 +55,16 @@ pub enum InputError {
         least: u32,
         /// The largest allowed.
         most: u32,
+    },
+    /// A number that is negative, too large, or none.
+    #[error("{what} must be 0 to {most}, not {value}")]
+    Within {
+        /// Whose number.
+        what: &'static str,
+        /// What it was.
+        value: f64,
+        /// The largest allowed.
+        most: f64,
     },
     /// Something that this kind of light has not.
     #[error("light {light} {what}")]
@@ -155,6 +165,7 @@ pub fn check(settings: &Settings) -> Result<(), InputError> {
     settings.lights.iter().try_for_each(|(light, edit)| check_light(*light, edit))?;
     counting::check(&settings.counting)?;
     lighting::check(&settings.lighting)?;
+    halo::check(&settings.halos)?;
     mirrors::check(&settings.mirrors)
 }
 
@@ -227,5 +238,6 @@ pub fn check_against(settings: &Settings, scene: &Scene) -> Result<(), InputErro
     {
         return Err(InputError::Index { kind: "animation", index, count: scene.animations.len() });
     }
+    halo::check_against(&settings.halos, scene)?;
     mirrors::check_against(&settings.mirrors, scene)
 }

@@ -10,8 +10,9 @@ use proptest::prelude::*;
 use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
 use crate::settings::{
-    Accumulation, AreaMode, Counting, Culling, LEAST_TEXTURE, LastBounce, LightBounds, Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES,
-    MAX_COUNT_BITS, MAX_FRAMES, MOST_TEXTURE, MirrorMode, MirrorPlace, Mirrors, Overflow, SlideChoice, Texturing,
+    Accumulation, AreaMode, Counting, Culling, Halos, LEAST_TEXTURE, LastBounce, LightBounds, Lighting, MAX_AREA_SAMPLES,
+    MAX_BOUNCES, MAX_COUNT_BITS, MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE, MirrorMode, MirrorPlace, Mirrors, Overflow,
+    SlideChoice, Texturing,
 };
 
 fn command(line: &str) -> Result<Command, InputError> {
@@ -51,6 +52,7 @@ fn every_argument_reaches_its_setting() {
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --area-mode bits --light-sample 3 --accumulate 256 \
          --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on \
          --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --mirror-texture 77 --least-pixels 25 --mirror 12=on --mirror 3:1=off \
+         --halo 4 --halo 5=off --halo-color 0.5,0,1 --halo-width 2.5 \
          --light-edit 1:on=true --adapter llvm --shaders wgsl",
     );
     let edit = LightEdit {
@@ -104,6 +106,7 @@ fn every_argument_reaches_its_setting() {
                 (MirrorPlace { node: 3, primitive: 1 }, false),
             ]),
         },
+        halos: Halos { edits: BTreeMap::from([(4, true), (5, false)]), color: Vec3::new(0.5, 0.0, 1.0), width: 2.5 },
         shaders: Some("wgsl".into()),
     };
     assert_eq!(got, expected);
@@ -403,11 +406,15 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             least_pixels,
             edits,
         });
+    let part = || 0.0f32..=1.0;
+    let halos =
+        (prop::collection::btree_map(any::<usize>(), any::<bool>(), 0..4), [part(), part(), part()], 0.0..=MAX_HALO_WIDTH)
+            .prop_map(|(edits, color, width)| Halos { edits, color: color.into(), width });
     let rest = (
         prop::collection::btree_map(any::<usize>(), any_edit(), 0..4),
         lighting,
         (1..=MAX_COUNT_BITS, prop::sample::select(&Overflow::ALL[..])).prop_map(|(bits, overflow)| Counting { bits, overflow }),
-        (culling, mirrors),
+        (culling, mirrors, halos),
         prop::option::of(word()),
         prop::option::of(word().prop_filter("a folder", |path| !path.is_empty()).prop_map(PathBuf::from)),
         prop::option::of(prop::sample::select(&Failure::ALL[..])),
@@ -416,7 +423,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         |(
             (scene, floor, technique, show, light, size, samples),
             (camera, fov, far, time, animation, smooth_terminator, exposure),
-            (lights, lighting, counting, (culling, mirrors), adapter, shaders, failure),
+            (lights, lighting, counting, (culling, mirrors, halos), adapter, shaders, failure),
         )| Settings {
             scene,
             floor,
@@ -439,6 +446,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             culling,
             adapter,
             mirrors,
+            halos,
             shaders,
         },
     )

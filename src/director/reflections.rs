@@ -150,6 +150,7 @@ impl Frame<'_> {
             self.extend(surfaces::textures(&stage.plain, once, whole));
         }
         self.extend(surfaces::transparent(self.known(), self.view(), whole));
+        self.draw_halos();
     }
 
     /// The frame's one light, over surfaces in their final colour.

@@ -13,6 +13,7 @@
 //!         B V [shadow count ]    both; modulo 64
 //!         h g f e d c b a        a bit for each of eight points of a light with a size
 //!         d c b a [ count ]      for each of four, that count in the low bits one after the other
+//!                   T g g        after all light: T, an object with a halo; g, how often the pixel glows
 //! ```
 //!
 //! All of them are zero where the light shines, so that one comparison with zero asks for all.
@@ -44,6 +45,9 @@ pub struct BitBudget {
     /// The highest bits, or none: how many mirrors lie on the way from the eye to the pixel's surface
     /// ([`Self::level`]).
     pub mirror_mask: u8,
+    /// The lowest three, or none: objects with halos, and what glows ([`crate::techniques::halo`]), when nothing is
+    /// counted any more.
+    pub halo_mask: u8,
 }
 
 impl Default for BitBudget {
@@ -70,6 +74,7 @@ impl BitBudget {
             points_mask: 0,
             bounded: false,
             mirror_mask: 0,
+            halo_mask: 0,
         }
     }
 
@@ -80,6 +85,18 @@ impl BitBudget {
         let bits = u32::BITS - levels.leading_zeros();
         let mirror_mask = !(u8::MAX.unbounded_shr(bits));
         Self { count_mask: self.count_mask & !mirror_mask, mirror_mask, ..self }
+    }
+
+    /// The same with the lowest bits for halos, after all light. Mirrors never need so many that these are among theirs.
+    #[must_use]
+    pub const fn with_halos(self) -> Self {
+        Self { halo_mask: 0b111 & !self.mirror_mask, ..self }
+    }
+
+    /// The bit of what has a halo: the highest of theirs. Those below count how often a pixel glows.
+    #[must_use]
+    pub const fn halo_tag(self) -> u8 {
+        if self.halo_mask == 0 { 0 } else { highest(self.halo_mask) }
     }
 
     /// The mirror bits of pixels that are seen by way of so many mirrors. The operation `Invert` turns all bits of a
@@ -114,7 +131,7 @@ impl BitBudget {
     #[must_use]
     pub const fn of_point(count_bits: u32, own: u8) -> Self {
         let count_mask = ((1_u32 << count_bits) - 1) as u8;
-        Self { count_mask, verdict_mask: own, beyond_mask: 0, points_mask: own, bounded: false, mirror_mask: 0 }
+        Self { count_mask, verdict_mask: own, beyond_mask: 0, points_mask: own, bounded: false, mirror_mask: 0, halo_mask: 0 }
     }
 
     /// Whether the verdict bit is one point's own: all of its count ends up there.
@@ -133,7 +150,7 @@ impl BitBudget {
     /// What counting may ever write in a frame of this budget: with batches or without.
     #[must_use]
     pub const fn reserved(self) -> u8 {
-        self.shadow_mask() | self.batched().shadow_mask() | self.points_mask
+        self.shadow_mask() | self.batched().shadow_mask() | self.points_mask | self.halo_mask
     }
 
     /// All that is zero where the light shines: the field, the verdict bit, and the bounds'; or a point's own
@@ -390,6 +407,19 @@ impl StencilState {
         Self { front: face, back: face, read_mask: budget.shadow_mask(), write_mask: bit }
     }
 
+    /// What has a halo: its pixels get the tag, which the reference is.
+    #[must_use]
+    pub const fn tag_halo(budget: BitBudget) -> Self {
+        Self { read_mask: 0, ..Self::replace(budget.halo_tag()) }
+    }
+
+    /// A halo: passes where nothing is tagged and nothing glows yet, and counts that the pixel glows.
+    #[must_use]
+    pub const fn glow_once(budget: BitBudget) -> Self {
+        let face = StencilFace { pass: IncrementWrap, ..StencilFace::test(Compare::Equal) };
+        Self { front: face, back: face, read_mask: budget.halo_mask, write_mask: budget.halo_mask & !budget.halo_tag() }
+    }
+
     /// One bit of the field becomes the reference's, whatever it was.
     #[must_use]
     pub const fn set_bit(budget: BitBudget, bit: u32) -> Self {
@@ -478,6 +508,7 @@ impl StencilState {
                 Compare::Equal if self.read_mask & !budget.mirror_mask == budget.beyond_mask && budget.beyond_mask != 0 => {
                     "within the bounds ".into()
                 }
+                Compare::Equal if f.pass == IncrementWrap => "where nothing is tagged or glows ".into(),
                 other => format!("passes where the reference is {} ", compare_words(other)),
             };
             let ops: Vec<_> = [("fail", f.fail), ("depth fail", f.depth_fail), ("pass", f.pass)]

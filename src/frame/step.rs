@@ -266,6 +266,8 @@ pub enum Program {
     Mirrored,
     /// Surfaces in the colour of their number ([`crate::frame::identity_color`]).
     Identity,
+    /// Swollen surfaces in one colour.
+    Halo,
 }
 
 /// What a step draws, by number.
@@ -276,6 +278,8 @@ pub enum DrawSet {
     FullScreen,
     /// Mesh primitives.
     Surfaces(Vec<Surface>),
+    /// Mesh primitives, larger than they are.
+    Swollen(Swollen),
     /// Parts of shadow volumes.
     Volumes(Vec<VolumePart>),
     /// A convex solid, both sides of it.
@@ -286,6 +290,15 @@ pub enum DrawSet {
     Labels(Vec<Label>),
     /// Lines and areas over the finished picture.
     Strokes(Vec<Stroke>),
+}
+
+/// Mesh primitives whose vertices are moved outwards on screen ([`crate::geometry::outward`]).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Swollen {
+    /// Which.
+    pub surfaces: Vec<Surface>,
+    /// By how many pixels.
+    pub pixels: f32,
 }
 
 /// A line, or an area with its rim. Places and widths in pixels from the upper left; colours as the

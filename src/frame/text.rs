@@ -127,6 +127,11 @@ fn contents(set: &DrawSet) -> String {
             let list: Vec<_> = surfaces.iter().map(|surface| format!("{}.{}", surface.instance, surface.primitive)).collect();
             format!("surfaces {}", list.join(" "))
         }
+        DrawSet::Swollen(swollen) => {
+            let list: Vec<_> =
+                swollen.surfaces.iter().map(|surface| format!("{}.{}", surface.instance, surface.primitive)).collect();
+            format!("swollen by {:.2} pixels: surfaces {}", swollen.pixels, list.join(" "))
+        }
         DrawSet::Volumes(parts) => {
             let mut by_volume: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
             for part in parts {

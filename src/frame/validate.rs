@@ -1,6 +1,7 @@
 //! Checks a plan without a GPU. A fault here is a bug in the director or a technique, caught where
 //! it can be read instead of where it can only be seen.
 
+mod halo;
 mod mirrors;
 
 use std::collections::BTreeMap;
@@ -60,6 +61,7 @@ pub fn validate(plan: &FramePlan) -> Result<(), Fault> {
                     state.bounded = None;
                     state.owned.clear();
                     state.shone = 0;
+                    state.tagged = false;
                     state.counting = false;
                     state.counted = None;
                     state.field_known = true;
@@ -118,6 +120,8 @@ struct Progress {
     bounded: Option<usize>,
     /// Whose volumes the stencil counts, since it was cleared.
     counted: Option<usize>,
+    /// What has a halo is tagged, since the stencil was cleared.
+    tagged: bool,
     counts_set: bool,
     /// Whose volumes are counted beyond the stencil, since the counts were cleared.
     wide: Option<usize>,
@@ -131,6 +135,7 @@ impl Progress {
             counting: false,
             owned: BTreeMap::new(),
             shone: 0,
+            tagged: false,
             bounded: None,
             counted: None,
             wide: None,
@@ -191,6 +196,9 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
     }
     if (stencil.tests() || stencil.writes()) && draw.stencil_reference & !(stencil.read_mask | stencil.write_mask) != 0 {
         return Err("its stencil reference does not fit its masks");
+    }
+    if let Some(checked) = halo::check(plan, draw, state) {
+        return checked;
     }
     if let DrawSet::Enclosure(_) = draw.set {
         return check_bounds(plan, draw, state);

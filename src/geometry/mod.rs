@@ -10,6 +10,7 @@ pub mod flatten;
 pub mod flaw;
 pub mod frustum;
 pub mod near_rectangle;
+pub mod outward;
 pub mod overlap;
 pub mod planar;
 pub mod reach;

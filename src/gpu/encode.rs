@@ -53,6 +53,12 @@ pub fn encode(encode: Encode<'_>, plan: &FramePlan, scene: &Scene, encoder: &mut
     let instances: Vec<_> = scene.instances().collect();
     for (_, draw) in plan.draws() {
         encode.pipelines.prepare(encode.context, &encode.key(plan, draw));
+        if let DrawSet::Swollen(swollen) = &draw.set {
+            for surface in &swollen.surfaces {
+                let (_, node, mesh) = instances[surface.instance];
+                encode.buffers.prepare_outward(encode.context, surface.instance, node.mesh.unwrap_or(0), mesh);
+            }
+        }
         if let DrawSet::Edges(shown) = &draw.set {
             for &instance in shown {
                 let (_, node, mesh) = instances[instance];
@@ -289,6 +295,7 @@ impl Encode<'_> {
                 drawn.draws += 1;
             }
             DrawSet::Surfaces(surfaces) => self.record_surfaces(pass, scene, surfaces, place.view, drawn),
+            DrawSet::Swollen(swollen) => self.record_swollen(pass, scene, &swollen.surfaces, place.view, drawn),
             DrawSet::Volumes(parts) => self.record_volumes(pass, plan, scene, (place.number, parts), drawn),
             DrawSet::Enclosure(_) => self.record_enclosure(pass, place.number, drawn),
             DrawSet::Labels(_) => self.record_labels(pass, drawn),
@@ -336,6 +343,30 @@ impl Encode<'_> {
             pass.draw_indexed(primitive.first_index..primitive.first_index + primitive.index_count, 0, object..object + count);
             drawn.draws += 1;
             drawn.triangles += u64::from(primitive.index_count / 3) * u64::from(count);
+        }
+    }
+
+    fn record_swollen(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        scene: &Scene,
+        surfaces: &[Surface],
+        view: usize,
+        drawn: &mut Drawn,
+    ) {
+        let instances: Vec<_> = scene.instances().collect();
+        for surface in surfaces {
+            let (_, node, mesh) = instances[surface.instance];
+            let (primitive, mesh_index) = (mesh.primitives[surface.primitive], node.mesh.unwrap_or(0));
+            let vertices = self.buffers.vertices(surface.instance, mesh_index);
+            let Some(outward) = &vertices.outward else { continue };
+            pass.set_vertex_buffer(0, vertices.positions.slice(..));
+            pass.set_vertex_buffer(1, outward.slice(..));
+            pass.set_index_buffer(self.buffers.meshes[mesh_index].indices.slice(..), wgpu::IndexFormat::Uint32);
+            let object = u32::try_from(view * instances.len() + surface.instance).unwrap_or(0);
+            pass.draw_indexed(primitive.first_index..primitive.first_index + primitive.index_count, 0, object..object + 1);
+            drawn.draws += 1;
+            drawn.triangles += u64::from(primitive.index_count / 3);
         }
     }
 

@@ -174,7 +174,8 @@ impl FrameBuffers {
         scratch.draws.clear();
         for (_, draw) in plan.draws() {
             let light = draw.light.and_then(|light| scratch.lights.get(light)).copied().unwrap_or_default();
-            let uniform = Draw { constant: draw.constant, light };
+            let swell = if let DrawSet::Swollen(swollen) = &draw.set { swollen.pixels } else { 0.0 };
+            let uniform = Draw { constant: draw.constant, light, swell, ..Draw::default() };
             append(&mut scratch.draws, bytemuck::bytes_of(&uniform));
         }
         scratch.frames.clear();

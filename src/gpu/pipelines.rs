@@ -390,7 +390,13 @@ fn vertex_buffers(vertices: Vertices) -> &'static [Option<wgpu::VertexBufferLayo
         step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x4],
     };
+    const OUTWARD: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+        array_stride: 12,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![1 => Float32x3],
+    };
     match vertices {
+        Vertices::Swollen => &[Some(POSITION), Some(OUTWARD)],
         Vertices::Lines => &[Some(LINES)],
         Vertices::Labels => &[Some(LABELS)],
         Vertices::None | Vertices::Bands => &[],

@@ -3,6 +3,7 @@
 use super::context::{Context, GpuError};
 use super::texture::{self, Samplers};
 use super::types::{Attributes, Material};
+use crate::geometry::outward;
 use crate::geometry::silhouette::Planes;
 use crate::scene::{AlphaMode, DeformedMesh, Mesh, Scene};
 use bytemuck::cast_slice;
@@ -39,6 +40,8 @@ pub struct VertexBuffers {
     pub attributes: wgpu::Buffer,
     /// `Float32x4`: welded positions with w = 1, then the same with w = 0.
     pub volume: wgpu::Buffer,
+    /// `Float32x3`, object space: which way is out ([`outward::directions`]); made when first drawn swollen.
+    pub outward: Option<wgpu::Buffer>,
     /// Welded positions, as volumes are built from them.
     pub welded: Vec<Vec3>,
     /// The planes of the welded triangles.
@@ -126,6 +129,18 @@ impl SceneBuffers {
         }
     }
 
+    /// Says which way is out at the vertices that an instance of `mesh` shows now, if that is not there yet.
+    pub fn prepare_outward(&mut self, context: &Context, instance: usize, index: usize, mesh: &Mesh) {
+        let vertices = self.deformed[instance].as_mut().unwrap_or(&mut self.meshes[index].vertices);
+        if vertices.outward.is_none() {
+            let welded = &mesh.topology.weld().welded_of_vertex;
+            let triangles = mesh.indices.as_chunks::<3>().0.iter().map(|corners| corners.map(|vertex| welded[vertex as usize]));
+            let ways = outward::directions(triangles, &vertices.welded);
+            let of_vertices: Vec<Vec3> = welded.iter().map(|&welded| ways[welded as usize]).collect();
+            vertices.outward = Some(filled(context, "outward", cast_slice(&of_vertices), wgpu::BufferUsages::VERTEX));
+        }
+    }
+
     /// Makes a mesh's line list if it is not there yet.
     pub fn prepare_edges(&mut self, context: &Context, index: usize, mesh: &Mesh) {
         let buffers = &mut self.meshes[index];
@@ -193,6 +208,7 @@ impl VertexBuffers {
             positions: buffer("positions", vertices * 12),
             attributes: buffer("attributes", vertices * size_of::<Attributes>() as u64),
             volume: buffer("volume vertices", welded * 32),
+            outward: None,
             welded: Vec::new(),
             planes: Planes::default(),
             scratch: Scratch::default(),
@@ -203,6 +219,7 @@ impl VertexBuffers {
 
     fn write(&mut self, context: &Context, mesh: &Mesh, source: &impl VertexSource) {
         let positions = source.positions();
+        self.outward = None;
         self.scratch.attributes.clear();
         self.scratch.attributes.extend((0..positions.len()).map(|vertex| Attributes {
             normal: source.normals()[vertex].to_array(),

@@ -37,6 +37,7 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("reflect.wgsl", include_str!("../../shaders/reflect.wgsl")),
     ("mirrored.wgsl", include_str!("../../shaders/mirrored.wgsl")),
     ("identity.wgsl", include_str!("../../shaders/identity.wgsl")),
+    ("halo.wgsl", include_str!("../../shaders/halo.wgsl")),
     ("output.wgsl", include_str!("../../shaders/output.wgsl")),
 ];
 
@@ -51,6 +52,8 @@ pub enum Vertices {
     Surface,
     /// Positions of a mesh.
     Positions,
+    /// The same, and which way is out.
+    Swollen,
     /// Positions of a mesh, as line ends.
     Edges,
     /// Homogeneous positions: of volumes, welded positions twice, with w = 1 and w = 0.
@@ -170,6 +173,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::Backdrop, "output.wgsl", "backdrop_vertex", "backdrop", Vertices::None, &[]),
     entry(Program::Mirrored, "mirrored.wgsl", "surface_vertex", "mirrored", Vertices::Surface, REFLECTED),
     entry(Program::Identity, "identity.wgsl", "identity_vertex", "identity", Vertices::Surface, SURFACE),
+    entry(Program::Halo, "halo.wgsl", "halo_vertex", "halo", Vertices::Swollen, &[Override::Clipped]),
 ];
 
 /// The entry of a program.

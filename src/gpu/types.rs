@@ -106,6 +106,10 @@ pub struct Draw {
     pub constant: [f32; 4],
     /// The light looked at.
     pub light: Light,
+    /// Pixels that swollen surfaces grow by.
+    pub swell: f32,
+    #[doc(hidden)]
+    pub _pad: [f32; 3],
 }
 
 /// A corner of a name's plate or of one of its letters: `LabelVertex` of `labels.wgsl`.

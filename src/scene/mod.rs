@@ -11,6 +11,7 @@ pub mod area;
 mod deform;
 pub mod doctor;
 pub mod gltf;
+mod halo;
 pub mod mesh;
 pub mod mirror;
 pub mod open;
@@ -79,6 +80,8 @@ pub struct Node {
     pub morph_weights: Vec<f32>,
     /// False where `extras` say `{"casts_shadow": false}`.
     pub casts_shadow: bool,
+    /// It has a halo, with all that hangs on it: `extras` say `{"halo": true}`.
+    pub halo: bool,
 }
 
 impl Default for Node {
@@ -91,6 +94,7 @@ impl Default for Node {
             skin: None,
             morph_weights: Vec::new(),
             casts_shadow: true,
+            halo: false,
         }
     }
 }

@@ -20,6 +20,7 @@ mod cutout;
 pub mod depth_bounds;
 mod exact_z_pass;
 mod flattened;
+pub mod halo;
 pub mod labels;
 pub mod mirrors;
 mod none;

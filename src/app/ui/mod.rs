@@ -12,6 +12,7 @@ mod culling;
 mod failures;
 mod gather;
 mod gizmo;
+mod halo;
 mod help;
 mod lights;
 mod mirrors;
@@ -238,6 +239,7 @@ impl Panel {
         style::section(ui, "Lights", true, |ui| lights::lights(ui, self, desk, view));
         style::section(ui, "Gathering", true, |ui| gather::gather(ui, desk, view));
         style::section(ui, "Mirrors", true, |ui| mirrors::mirrors(ui, self, desk, view));
+        style::section(ui, "Halos", false, |ui| halo::halos(ui, desk, view));
         style::section(ui, "Count", false, |ui| counting::counting(ui, desk, view));
         style::section(ui, "Culling", false, |ui| culling::culling(ui, desk, view));
         style::section(ui, "Camera", true, |ui| camera::camera(ui, desk, view));

@@ -52,6 +52,7 @@ pub(super) fn check(plan: &FramePlan, view: usize, draw: &Draw, state: &mut Prog
     if is_reset(&draw, mask) {
         state.field_known = true;
         (state.counted, state.counting, state.shone) = (None, false, 0);
+        state.tagged = false;
         state.owned.clear();
         return Ok(());
     }

@@ -192,6 +192,7 @@ pub(super) fn import(
             skin: skin.filter(|_| mesh.is_some()),
             morph_weights,
             casts_shadow: flag(&node.extras, "casts_shadow").unwrap_or(true),
+            halo: flag(&node.extras, "halo").unwrap_or(false),
         })
     };
     hierarchy.order.iter().enumerate().map(node).collect()

@@ -264,6 +264,11 @@ impl Composer {
         self.remade(prop, |material| material.double_sided = true)
     }
 
+    /// A node glows, with all that hangs on it.
+    pub(super) fn halo(&mut self, node: usize) {
+        self.scene.nodes[node].halo = true;
+    }
+
     /// A node that shows nothing, to hang others on.
     pub(super) fn group(&mut self, name: &str, parent: Option<usize>, place: Place) -> usize {
         self.scene.nodes.push(Node { name: name.into(), parent, local: place.into(), ..Node::default() });

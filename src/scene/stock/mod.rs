@@ -12,6 +12,7 @@ mod eye_in_shadow;
 mod figure3;
 mod gallery;
 mod grid;
+mod halo;
 mod hello2rts;
 mod kaleidoscope;
 mod projector;
@@ -116,6 +117,11 @@ pub static TABLE: &[StockScene] = &[
         name: "kaleidoscope",
         about: "the eye inside a triangle of three mirrors, bright toys turning at its end",
         build: kaleidoscope::build,
+    },
+    StockScene {
+        name: "halo",
+        about: "a hooded figure, a ring and an orb in magic haloes, over a polished floor with shadows (Kilgard 1999, figure 17)",
+        build: halo::build,
     },
 ];
 
