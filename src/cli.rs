@@ -9,6 +9,7 @@
 //! which pictures carry and the window copies to the clipboard.
 
 mod command_line;
+mod complexity;
 mod counting;
 mod culling;
 mod halo;
@@ -408,6 +409,8 @@ struct PictureArguments {
     #[command(flatten)]
     culling: culling::CullingArguments,
     #[command(flatten)]
+    complexity: complexity::ComplexityArguments,
+    #[command(flatten)]
     mirrors: mirrors::MirrorArguments,
     #[command(flatten)]
     halos: halo::HaloArguments,
@@ -433,6 +436,7 @@ impl PictureArguments {
                 smooth_terminator: settings.smooth_terminator,
                 lighting: settings.lighting,
                 counting: settings.counting,
+                complexity: settings.complexity,
                 culling: settings.culling,
                 mirrors: settings.mirrors.of_another_scene(),
                 halos: settings.halos.of_another_scene(),
@@ -477,6 +481,7 @@ impl PictureArguments {
         self.lighting.apply(&mut settings.lighting)?;
         self.counting.apply(&mut settings.counting)?;
         self.culling.apply(&mut settings.culling)?;
+        self.complexity.apply(&mut settings.complexity)?;
         self.mirrors.apply(&mut settings.mirrors)?;
         self.halos.apply(&mut settings.halos);
         settings.adapter = self.adapter.clone().or(settings.adapter);

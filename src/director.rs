@@ -210,6 +210,7 @@ pub fn plan(
             // The near plane may cut lamps off; their names stay.
             frame.name(named, Camera { near: 0.0, ..above.camera }, Target::Output);
         }
+        Show::Complexity => frame.draw_complexity(&groups),
         Show::Final | Show::Volumes | Show::Wireframe => {
             let darkens = techniques::row(settings.technique).darkens;
             let mut rounds = frame.rounds();
@@ -277,7 +278,7 @@ impl<'a> Frame<'a> {
     fn new(settings: &'a Settings, scene: &'a Scene, pose: &'a Pose, camera: Camera, capabilities: &'a Capabilities) -> Self {
         let exact_values = matches!(
             settings.show,
-            Show::Shadow | Show::Stencil | Show::Overflow | Show::Surfaces | Show::Views | Show::Birdseye
+            Show::Shadow | Show::Stencil | Show::Overflow | Show::Surfaces | Show::Views | Show::Birdseye | Show::Complexity
         );
         let each_sample = settings.technique != Technique::Wide || capabilities.wide_four_samples;
         let samples = if exact_values || !capabilities.four_samples || !each_sample { 1 } else { settings.samples };
@@ -319,6 +320,11 @@ impl<'a> Frame<'a> {
 
     /// One bit less to count in where lights' bounds are marked.
     fn choose_bits(&mut self) {
+        if self.settings.show == Show::Complexity {
+            // Counting is clamped, and clamping knows no fields.
+            self.plan.budget = BitBudget::default();
+            return;
+        }
         if self.has_halos() {
             self.plan.budget = self.plan.budget.with_halos();
         }

@@ -50,7 +50,11 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Window(request) => window(&request),
         Command::Render { settings, out, json } => {
             let report = render(&settings, &out, json)?;
-            if json { print_json(&report) } else { Ok(()) }
+            match &report.complexity {
+                _ if json => print_json(&report),
+                Some(tally) => print(&tally.to_string()),
+                None => Ok(()),
+            }
         }
         Command::Verify { request, json } => {
             let report = verify(&request)?;

@@ -3,12 +3,14 @@
 //! The panel edits a [`Settings`], the command line fills one, tests build one; it knows neither
 //! wgpu nor egui, and nothing flows back into it from the renderer.
 
+mod complexity;
 mod counting;
 mod culling;
 mod halo;
 mod lighting;
 mod mirrors;
 
+pub use complexity::Complexity;
 pub use counting::{Counting, MAX_COUNT_BITS, Overflow};
 pub use culling::{Culling, LightBounds};
 pub use halo::{Halos, MAX_HALO_WIDTH};
@@ -67,6 +69,8 @@ pub struct Settings {
     pub lighting: Lighting,
     /// What is left out of counting shadows.
     pub culling: Culling,
+    /// Which fragments depth complexity counts.
+    pub complexity: Complexity,
     /// Which surfaces are mirrors, and how what is seen in them is drawn.
     pub mirrors: Mirrors,
     /// What glows.
@@ -99,6 +103,7 @@ impl Default for Settings {
             lights: BTreeMap::new(),
             lighting: Lighting::default(),
             culling: Culling::default(),
+            complexity: Complexity::default(),
             mirrors: Mirrors::default(),
             halos: Halos::default(),
             adapter: None,
@@ -283,6 +288,8 @@ pub enum Show {
     Surfaces,
     /// From above: the rooms that mirrors make, and what is seen of each.
     Birdseye,
+    /// How often each pixel is drawn, in false colour, with a legend.
+    Complexity,
 }
 
 named! {
@@ -321,7 +328,7 @@ named! {
 
 impl Show {
     /// Everything that can be shown, in the order people see them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Final,
         Self::Stencil,
         Self::Shadow,
@@ -333,6 +340,7 @@ impl Show {
         Self::Views,
         Self::Surfaces,
         Self::Birdseye,
+        Self::Complexity,
     ];
 
     /// The name on the command line and in files.
@@ -350,6 +358,7 @@ impl Show {
             Self::Views => "views",
             Self::Surfaces => "surfaces",
             Self::Birdseye => "birdseye",
+            Self::Complexity => "complexity",
         }
     }
 
@@ -376,6 +385,7 @@ impl Show {
                 "every surface in a colour of its own, another in each mirror: exact values, black where nothing is"
             }
             Self::Birdseye => "from above: the rooms that mirrors make, where they seem to stand, and what is seen of each",
+            Self::Complexity => "how often each pixel is drawn: depth complexity in false colour, with a legend",
         }
     }
 
@@ -384,7 +394,7 @@ impl Show {
     pub const fn looks_at_light(self) -> bool {
         match self {
             Self::Stencil | Self::Shadow | Self::Overflow | Self::Volumes | Self::Cases | Self::Bounds => true,
-            Self::Final | Self::Wireframe | Self::Views | Self::Surfaces | Self::Birdseye => false,
+            Self::Final | Self::Wireframe | Self::Views | Self::Surfaces | Self::Birdseye | Self::Complexity => false,
         }
     }
 }

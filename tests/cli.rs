@@ -119,6 +119,18 @@ fn the_same_arguments_give_the_same_bytes() {
 }
 
 #[test]
+fn depth_complexity_is_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = [&["render", "cubes", "--show", "complexity", "--complexity", "fragments", "--out", "a.png"], &SMALL[..]].concat();
+    let text = good(folder.path(), &line);
+    assert!(text.starts_with("fragments a pixel: ") && text.contains(" on average") && text.lines().count() == 1, "{text}");
+    let report: Value = serde_json::from_str(&good(folder.path(), &[&line[..], &["--json"]].concat())).unwrap();
+    let (average, most) = (report["complexity"]["average"].as_f64().unwrap(), report["complexity"]["maximum"].as_u64().unwrap());
+    assert!(text.contains(&format!("{average:.3} on average")) && text.contains(&format!("{most} at most")), "{text}");
+    assert!(bad(folder.path(), &["render", "cubes", "--out", "a.png", "--complexity", "depth"]).contains("updates, fragments"));
+}
+
+#[test]
 fn the_command_in_a_picture_draws_it_again() {
     let folder = tempfile::tempdir().unwrap();
     let arguments = ["--eye", "-3.1,2.7,4.9", "--target", "0.1,0.4,-0.3", "--light-edit", "0:color=1;0.5;0.1,shadows=false"];

@@ -17,10 +17,12 @@ use obscura::frame::{Camera, Capabilities, FramePlan};
 use obscura::scene::stock::StockScene;
 use obscura::scene::{self, Light, LightKind, Node, Pose, PosedLight, Scene};
 use obscura::settings::{
-    CameraChoice, Failure, Halos, LastBounce, LightEdit, MirrorMode, MirrorPlace, Mirrors, SceneChoice, Settings, Show, Technique,
+    CameraChoice, Complexity, Failure, Halos, LastBounce, LightEdit, MirrorMode, MirrorPlace, Mirrors, SceneChoice, Settings,
+    Show, Technique,
 };
 use obscura::techniques::TABLE;
 use obscura::techniques::cases::{self, Class};
+use obscura::techniques::complexity::Tally;
 use obscura::truth::{Comparison, SurfaceComparison, Wrong, WrongPixel};
 
 /// Everything around the panel that the window would hold.
@@ -34,6 +36,7 @@ struct Bench {
     notices: Vec<Notice>,
     capabilities: Capabilities,
     history: History,
+    complexity: Option<Tally>,
     verification: Verification,
     actions: Vec<Action>,
     picture: egui::Rect,
@@ -94,6 +97,7 @@ impl Bench {
             notices: Vec::new(),
             capabilities: Capabilities::complete(),
             history: History::default(),
+            complexity: None,
             verification: Verification::default(),
             actions: Vec::new(),
             picture: egui::Rect::NOTHING,
@@ -110,6 +114,7 @@ impl Bench {
             opening: None,
             notices: &self.notices,
             capabilities: Some(&self.capabilities),
+            complexity: self.complexity,
             history: &self.history,
             verification: &self.verification,
             picture: None,
@@ -702,4 +707,19 @@ fn a_view_is_verified_and_says_what_was_found_until_it_changes() {
     harness.state_mut().settings.fov = Some(33.0);
     harness.run_steps(2);
     assert!(harness.query_by_label_contains(words).is_none(), "of another view it says nothing");
+}
+
+#[test]
+fn depth_complexity_is_told_in_numbers_while_it_is_shown() {
+    let mut bench = Bench::new();
+    bench.complexity = Some(Tally::of(&[0, 1, 3, 255], 2, Complexity::Updates));
+    let mut harness = open(bench);
+    assert!(harness.query_by_label_contains("255 at most").is_none());
+    click(&mut harness, "Complexity");
+    assert_eq!(harness.state().settings.show, Show::Complexity);
+    assert!(harness.query_by_label_contains("255 at most (pixel 1,1)").is_some());
+    assert!(harness.query_by_label_contains("1 pixels reached 255").is_some(), "a full byte is said to be full");
+    click(&mut harness, "Fragments");
+    assert_eq!(harness.state().settings.complexity, Complexity::Fragments);
+    assert!(harness.query_by_label_contains("at most").is_none(), "those were updates");
 }

@@ -17,6 +17,8 @@ use crate::gpu::readback::PICTURE_FORMAT;
 use crate::gpu::shaders::Library;
 use crate::gpu::{Context, FrameStats, GpuError, Renderer};
 use crate::scene::{Pose, Scene};
+use crate::settings::Settings;
+use crate::techniques::complexity::Tally;
 
 /// What egui drew, ready to be painted.
 pub struct Painted {
@@ -204,6 +206,14 @@ impl Screen {
         let painted =
             (!self.copies).then(|| self.panel.register_native_texture(&self.context.device, &view, wgpu::FilterMode::Nearest));
         Picture { texture, view, size, painted }
+    }
+
+    /// Depth complexity in numbers, of the picture that was drawn last.
+    ///
+    /// # Errors
+    /// See [`crate::gpu::readback::stencil`].
+    pub fn tally(&self, settings: &Settings) -> Result<Tally, GpuError> {
+        crate::headless::render::tally(&self.context, &self.renderer, settings)
     }
 
     /// The texture by which the panel's painter draws the picture, where it cannot be copied.

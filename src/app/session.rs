@@ -12,6 +12,7 @@ use crate::frame::{Capabilities, FramePlan};
 use crate::scene::open::{Loading, load_on_thread};
 use crate::scene::{Pose, Scene, doctor, stock};
 use crate::settings::{Failure, SceneChoice, Settings};
+use crate::techniques::complexity::Tally;
 use store::{Preferences, Store};
 
 /// How long good news stay.
@@ -40,6 +41,8 @@ struct Opening {
 pub(super) struct Drawn {
     pub pose: Pose,
     pub plan: FramePlan,
+    /// Its depth complexity, where that is shown.
+    pub complexity: Option<Tally>,
 }
 
 /// Everything that outlives a window and a device.
@@ -136,6 +139,7 @@ impl Session {
             opening: self.opening.as_ref().map(|opening| opening.name.as_str()),
             notices: &self.notices,
             capabilities,
+            complexity: self.drawn.as_ref().and_then(|drawn| drawn.complexity),
             history: &self.history,
             verification: &self.verification,
             picture,

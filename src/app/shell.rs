@@ -26,7 +26,7 @@ use crate::director::stage_frame;
 use crate::frame::Gather;
 use crate::headless::HeadlessError;
 use crate::headless::verify::Shots;
-use crate::settings::SceneChoice;
+use crate::settings::{SceneChoice, Show};
 
 /// How often shaders in a folder are looked at.
 const SHADER_POLL: Duration = Duration::from_millis(250);
@@ -272,12 +272,16 @@ impl Shell {
         let result = staged.and_then(|(pose, plan)| {
             let staging = begun.elapsed().as_secs_f64() * 1e3;
             let stats = screen.draw(&plan, &loaded.scene, &pose).map_err(|error| error.to_string())?;
-            Ok((pose, plan, stats, staging))
+            let complexity = match session.settings.show {
+                Show::Complexity => Some(screen.tally(&session.settings).map_err(|error| error.to_string())?),
+                _ => None,
+            };
+            Ok((Drawn { pose, plan, complexity }, stats, staging))
         });
         match result {
-            Ok((pose, plan, stats, staging)) => {
-                session.next_frame = plan.gather.and_then(Gather::next);
-                session.drawn = Some(Drawn { pose, plan });
+            Ok((drawn, stats, staging)) => {
+                session.next_frame = drawn.plan.gather.and_then(Gather::next);
+                session.drawn = Some(drawn);
                 session.dismiss(Topic::Frame);
                 if self.pictures == 0 {
                     tracing::info!("first picture drawn");

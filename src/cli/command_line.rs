@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 
 use super::{
-    counting as counting_options, culling as culling_options, halo as halo_options, light_edit, lighting as lighting_options,
-    mirrors as mirror_options, needs_dot,
+    complexity as complexity_options, counting as counting_options, culling as culling_options, halo as halo_options, light_edit,
+    lighting as lighting_options, mirrors as mirror_options, needs_dot,
 };
 use crate::scene::AnimationChoice;
 use crate::settings::{CameraChoice, SceneChoice, Settings};
@@ -38,6 +38,7 @@ pub fn render_command(settings: &Settings) -> String {
         lighting,
         counting,
         culling,
+        complexity,
         adapter,
         shaders,
         mirrors,
@@ -111,6 +112,7 @@ pub fn render_command(settings: &Settings) -> String {
     lighting_options::write(lighting, &mut line);
     counting_options::write(counting, &mut line);
     culling_options::write(culling, &mut line);
+    complexity_options::write(*complexity, &mut line);
     mirror_options::write(mirrors, &mut line);
     halo_options::write(halos, &mut line);
     if let Some(adapter) = adapter {

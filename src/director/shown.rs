@@ -7,7 +7,8 @@ use crate::settings::Technique;
 use crate::techniques::above::{Above, above};
 use crate::techniques::cases::{self, Class};
 use crate::techniques::labels::{self, Named};
-use crate::techniques::{self, bounds};
+use crate::techniques::surfaces::{self, SurfaceGroup};
+use crate::techniques::{self, bounds, complexity, show};
 
 impl Frame<'_> {
     /// Makes sure that the light whose volumes are shown has some, even when nothing counted them.
@@ -40,6 +41,20 @@ impl Frame<'_> {
         // Display values have no exposure.
         self.plan.exposure = 1.0;
         (eye, above)
+    }
+
+    /// How often each pixel is drawn, as colours with a legend.
+    pub(super) fn draw_complexity(&mut self, groups: &[SurfaceGroup]) {
+        if !self.scene.mirrors_in_force(&self.settings.mirrors).0.is_empty() {
+            self.plan.notes.push("mirrors are ordinary surfaces here: one stencil byte counts one view's fragments".into());
+        }
+        let (whole, what, budget) = (self.whole(), self.settings.complexity, self.plan.budget);
+        self.clear_all(cases::BACKGROUND, 0);
+        let blended = surfaces::transparent(self.known(), self.view(), whole);
+        self.extend(complexity::count(groups, blended, what, budget, whole));
+        self.extend(complexity::colors(groups, budget, whole));
+        self.push(show::copy(whole));
+        self.extend(complexity::legend(what, self.plan.size, whole));
     }
 
     pub(super) fn draw_bounds(&mut self, eye: &Camera, above: &Above, scissor: Option<[u32; 4]>) {

@@ -448,6 +448,21 @@ impl StencilState {
         Self { front: face, back: face, read_mask: budget.shadow_mask(), write_mask: 0 }
     }
 
+    /// Depth complexity (K section 7): every fragment that updates its pixel counts, or where `hidden` every fragment. It
+    /// is clamped, which keeps a full byte from coming round to zero; so the field must be all of it.
+    #[must_use]
+    pub const fn count_fragments(budget: BitBudget, hidden: bool) -> Self {
+        let more = StencilOp::IncrementClamp;
+        let face = StencilFace::always(if hidden { more } else { Keep }, more);
+        Self { front: face, back: face, read_mask: budget.count_mask, write_mask: budget.count_mask }
+    }
+
+    /// Passes where the count is the reference or more, and changes nothing.
+    #[must_use]
+    pub const fn count_at_least(budget: BitBudget) -> Self {
+        Self::compare_count(budget, Compare::LessEqual)
+    }
+
     /// Whether any operation changes stored bits.
     #[must_use]
     pub fn writes(&self) -> bool {

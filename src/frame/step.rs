@@ -342,6 +342,8 @@ pub enum LabelKind {
     Eye,
     /// Something that casts shadows.
     Caster,
+    /// A colour of a legend: the words alone, without plate or mark.
+    Legend,
 }
 
 /// One primitive of one instance.

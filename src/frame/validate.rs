@@ -1,6 +1,7 @@
 //! Checks a plan without a GPU. A fault here is a bug in the director or a technique, caught where
 //! it can be read instead of where it can only be seen.
 
+mod fragments;
 mod halo;
 mod mirrors;
 
@@ -62,6 +63,7 @@ pub fn validate(plan: &FramePlan) -> Result<(), Fault> {
                     state.owned.clear();
                     state.shone = 0;
                     state.tagged = false;
+                    state.fragments = false;
                     state.counting = false;
                     state.counted = None;
                     state.field_known = true;
@@ -116,6 +118,8 @@ struct Progress {
     owned: BTreeMap<u8, Option<usize>>,
     /// Bits that surfaces were marked in when they took light.
     shone: u8,
+    /// The stencil holds how many fragments fell on each pixel, since it was cleared.
+    fragments: bool,
     /// Whose bounds are marked in the stencil, since it was cleared.
     bounded: Option<usize>,
     /// Whose volumes the stencil counts, since it was cleared.
@@ -197,7 +201,7 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
     if (stencil.tests() || stencil.writes()) && draw.stencil_reference & !(stencil.read_mask | stencil.write_mask) != 0 {
         return Err("its stencil reference does not fit its masks");
     }
-    if let Some(checked) = halo::check(plan, draw, state) {
+    if let Some(checked) = halo::check(plan, draw, state).or_else(|| fragments::check(plan, draw, state)) {
         return checked;
     }
     if let DrawSet::Enclosure(_) = draw.set {

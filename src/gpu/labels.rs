@@ -77,14 +77,19 @@ impl Labels {
         for (label, text) in labels.iter().zip(&texts) {
             let color = match label.kind {
                 LabelKind::Light => OF_LIGHTS,
-                LabelKind::Eye | LabelKind::Caster => OF_CASTERS,
+                LabelKind::Eye | LabelKind::Caster | LabelKind::Legend => OF_CASTERS,
             };
             let [x, y, width, height] = label.plate;
-            shapes.rectangle([x, y, width, height], PLATE);
-            let [ax, ay] = label.anchor.map(f32::round);
-            shapes.rectangle([ax - 2.0, ay - 2.0, 4.0, 4.0], color);
             let size = text.rect.size();
-            let origin = [(x + (width - size.x) / 2.0).round(), (y + (height - size.y) / 2.0).round()];
+            let centered = [(x + (width - size.x) / 2.0).round(), (y + (height - size.y) / 2.0).round()];
+            let mut origin = centered;
+            if label.kind == LabelKind::Legend {
+                origin[0] = x.round();
+            } else {
+                shapes.rectangle([x, y, width, height], PLATE);
+                let [ax, ay] = label.anchor.map(f32::round);
+                shapes.rectangle([ax - 2.0, ay - 2.0, 4.0, 4.0], color);
+            }
             for row in &text.rows {
                 let mesh = &row.row.visuals.mesh;
                 let first = shapes.next();

@@ -11,6 +11,7 @@ use crate::frame::{Camera, Capabilities, FramePlan, Lack};
 use crate::gpu::FrameStats;
 use crate::scene::{Mirror, Scene};
 use crate::settings::{MirrorMode, Settings, Show, Technique};
+use crate::techniques::complexity::Tally;
 
 /// One picture, for programs.
 #[derive(Debug, Clone, Serialize)]
@@ -55,6 +56,9 @@ pub struct Report {
     pub casters: Vec<CasterReport>,
     /// Mirrors, and the views drawn for them.
     pub reflections: ReflectionsReport,
+    /// Depth complexity in numbers, where that is shown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub complexity: Option<Tally>,
     /// What the GPU was given.
     pub frame: FrameStats,
     /// How long it took.
@@ -219,6 +223,7 @@ impl Report {
             volumes: volumes(scene, plan),
             casters: casters(scene, plan),
             reflections: ReflectionsReport::new(settings, scene, plan),
+            complexity: None,
             frame,
             timings,
         }

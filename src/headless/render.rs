@@ -9,9 +9,10 @@ use super::progress_bar;
 use super::save::{check_target, save_png};
 use crate::cli::{check, check_against, render_command};
 use crate::director;
-use crate::gpu::{Context, Renderer, readback};
+use crate::gpu::{Context, GpuError, Renderer, readback};
 use crate::scene::Scene;
-use crate::settings::Settings;
+use crate::settings::{Settings, Show};
+use crate::techniques::complexity::Tally;
 
 /// Draws what `settings` say into the PNG file `out`. With `measured`, draws the last frame twice, for the
 /// second one's time: the first one's is mostly compilation.
@@ -54,8 +55,18 @@ pub fn render(settings: &Settings, out: &Path, measured: bool) -> Result<Report,
         (frame, _) = readback::picture(&context, &mut renderer, &plan, &scene, &pose)?;
         timings.second_frame_ms = lap(&mut clock);
     }
+    let complexity = if settings.show == Show::Complexity { Some(tally(&context, &renderer, settings)?) } else { None };
     save_png(out, &picture, &render_command(settings))?;
-    Ok(Report::new(out, settings, &scene, &plan, context.capabilities(), frame, timings))
+    Ok(Report { complexity, ..Report::new(out, settings, &scene, &plan, context.capabilities(), frame, timings) })
+}
+
+/// Depth complexity in numbers, of the frame that was drawn last.
+///
+/// # Errors
+/// What [`readback::stencil`] may return.
+pub fn tally(context: &Context, renderer: &Renderer, settings: &Settings) -> Result<Tally, GpuError> {
+    let stencil = readback::stencil(context, renderer)?;
+    Ok(Tally::of(&stencil, settings.size[0], settings.complexity))
 }
 
 /// The scene that `settings` ask for, with the lights and animations they speak of.

@@ -14,6 +14,7 @@ pub mod beam;
 pub mod birdseye;
 pub mod bounds;
 pub mod cases;
+pub mod complexity;
 pub mod counting;
 pub mod culling;
 mod cutout;

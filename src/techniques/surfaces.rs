@@ -318,6 +318,18 @@ pub fn tinted(groups: &[SurfaceGroup], tint: &Tint<'_>, wanted: impl Fn(Surface)
     groups.iter().filter_map(of_group).collect()
 }
 
+/// The same over surfaces that lie there already, multiplied with what they are: colours above 1 brighten.
+#[must_use]
+pub fn tinted_again(groups: &[SurfaceGroup], tint: &Tint<'_>, scissor: [u32; 4]) -> Vec<Step> {
+    let mut steps = tinted(groups, tint, |_| true, scissor);
+    for step in &mut steps {
+        if let Action::Draw(draw) = &mut step.action {
+            (draw.state.depth, draw.state.color) = (Depth::SAME_SURFACE, Some(Blend::Multiply));
+        }
+    }
+    steps
+}
+
 /// One light, added where its count is zero, to the surfaces that `reached` says it may reach.
 #[must_use]
 pub fn lit<'a>(

@@ -7,6 +7,7 @@
 
 mod camera;
 mod commands;
+mod complexity;
 mod counting;
 mod culling;
 mod failures;
@@ -37,6 +38,7 @@ use crate::frame::{Camera, Capabilities, FramePlan};
 use crate::scene::stock::StockScene;
 use crate::scene::{Pose, Scene};
 use crate::settings::{Failure, SceneChoice, Settings};
+use crate::techniques::complexity::Tally;
 
 /// What the panel edits.
 pub struct Desk<'a> {
@@ -65,6 +67,8 @@ pub struct View<'a> {
     pub notices: &'a [Notice],
     /// What the device can do.
     pub capabilities: Option<&'a Capabilities>,
+    /// The picture's depth complexity, where that is shown.
+    pub complexity: Option<Tally>,
     /// The last frames.
     pub history: &'a History,
     /// What exact rays say of the picture.

@@ -2,6 +2,7 @@
 
 use egui::{RichText, Ui};
 
+use super::complexity::complexity;
 use super::style::{self, explain, field, slider};
 use super::{Desk, View};
 use crate::app::keys::{Command, key_of};
@@ -46,6 +47,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
     if desk.settings.show == Show::Cases {
         legend(ui, desk, view);
     }
+    complexity(ui, desk, view);
     let lights = view.scene.map_or(&[][..], |scene| &scene.lights);
     let of_one_light = desk.settings.show.looks_at_light();
     ui.add_enabled_ui(of_one_light && !lights.is_empty(), |ui| {
