@@ -5,6 +5,7 @@
 //! before (pose, camera) and after (validation), for the window and the headless commands alike.
 
 mod halos;
+mod off_mirrors;
 mod reflections;
 mod rounds;
 mod shown;
@@ -12,7 +13,7 @@ mod views;
 
 use std::cell::OnceCell;
 
-use glam::DVec2;
+use glam::{DVec2, DVec4};
 use thiserror::Error;
 
 use crate::director::views::Outlook;
@@ -20,14 +21,15 @@ use crate::failures;
 use crate::frame::plan::View;
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::validate::{Fault, validate};
-use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, Gather, Reflections, Step, Target};
-use crate::geometry::Enclosure;
+use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, Gather, Piece, Reflections, Step, Target};
 use crate::geometry::ending::ending_plane;
+use crate::geometry::planar::reflection;
 use crate::geometry::sight::Sight;
+use crate::geometry::{Aabb, Body, Enclosure};
 use crate::scene::area::sequence;
 use crate::scene::pose::pose;
-use crate::scene::{LightKind, Pose, Sampling, Scene};
-use crate::settings::{Accumulation, MAX_FRAMES, Settings, Show, Technique, Texturing};
+use crate::scene::{LightKind, Pose, PosedLight, Sampling, Scene};
+use crate::settings::{Accumulation, MAX_FRAMES, MirrorLight, Settings, Show, Technique, Texturing};
 use crate::techniques::cases::{self, Class};
 use crate::techniques::counting::LightCount;
 use crate::techniques::culling::{Audience, Interest, around, common, light_rect};
@@ -105,10 +107,13 @@ pub fn stage_frame(
     if !settings.time.is_finite() || settings.time < 0.0 {
         return Err(StageError::Time(settings.time));
     }
-    if settings.show.looks_at_light() && settings.light >= scene.lights.len() {
-        return Err(StageError::Light(settings.light, scene.lights.len()));
-    }
     let mut pose = pose(scene, settings.time, settings.animation.unwrap_or(scene.default_animation), &settings.lights);
+    if settings.mirrors.light == MirrorLight::Virtual {
+        pose.add_lights_off(scene, &scene.mirrors_in_force(&settings.mirrors).0);
+    }
+    if settings.show.looks_at_light() && settings.light >= pose.lights.len() {
+        return Err(StageError::Light(settings.light, pose.lights.len()));
+    }
     let sampling = Sampling { samples: settings.lighting.area_samples, frame };
     let points = pose.lights.iter().map(|light| sampling.points(light) as usize).sum();
     if points > MOST_POINTS {
@@ -439,6 +444,10 @@ impl<'a> Frame<'a> {
         let bounds = self.settings.culling.light_bounds;
         let rect =
             light_rect(&self.pose.lights[light], bounds, self.settings.show.into(), &clip_from_world, self.view().picture)?;
+        let rect = match self.pose.lights[light].off {
+            Some(off) if Interest::from(self.settings.show) == Interest::Lit => common(rect, self.beam_rect(light, off)?)?,
+            _ => rect,
+        };
         common(rect, self.view().rect)
     }
 
@@ -457,12 +466,18 @@ impl<'a> Frame<'a> {
     }
 
     fn count_by(&mut self, row: &techniques::Row, light: usize) -> LightCount {
-        let mut volumes = std::mem::take(&mut self.plan.volumes);
-        let count = self.light_rect(light).and_then(|scissor| {
-            let casters = self.casters(light, scissor)?;
-            Some(counting::count_light(row, &casters, &self.ask(light, scissor), &mut volumes))
-        });
-        self.plan.volumes = volumes;
+        let scissor = self.light_rect(light);
+        let count = match (scissor, self.pose.lights[light].off) {
+            (None, _) => None,
+            (Some(scissor), Some(off)) => Some(self.count_off_mirror(row, light, off, scissor)),
+            (Some(scissor), None) => {
+                let mut volumes = std::mem::take(&mut self.plan.volumes);
+                let casters = self.casters(light, scissor);
+                let count = casters.map(|casters| counting::count_light(row, &casters, &self.ask(light, scissor), &mut volumes));
+                self.plan.volumes = volumes;
+                count
+            }
+        };
         let Some(count) = count else { return LightCount { budget: self.plan.budget.without_bounds(), ..LightCount::default() } };
         // The points of one light have much the same to say.
         let about = format!("light {}: ", self.pose.lights[light].of);
@@ -498,53 +513,70 @@ impl<'a> Frame<'a> {
         if !posed.shadows {
             return None;
         }
-        let Outlook { stalls, receivers, near_pyramid, across, places, .. } = &self.outlook;
+        let audience = self.audience(posed, scissor);
+        let within = audience.receivers_within(&self.outlook.receivers, self.view().camera.eye);
+        let caster = |(instance, _)| self.caster(&audience, &within, (posed, instance), Piece::Whole, None);
+        Some(self.casting().filter_map(caster).collect())
+    }
+
+    /// What casts shadows: its number among the instances, and its node.
+    fn casting(&self) -> impl Iterator<Item = (usize, usize)> {
+        let casts = |mesh: &crate::scene::Mesh| {
+            !mesh.indices.is_empty() && mesh.primitives.iter().any(|primitive| primitive.casts_shadow)
+        };
+        let casting = self.scene.instances().enumerate().filter(move |(_, (_, node, mesh))| node.casts_shadow && casts(mesh));
+        casting.map(|(instance, (node, ..))| (instance, node))
+    }
+
+    /// A piece of an instance, perhaps reflected, as a caster before a light; its volume need not go farther than `within`.
+    fn caster<'s>(
+        &'s self,
+        audience: &Audience<'_>,
+        within: &Aabb,
+        (light, instance): (&'s PosedLight, usize),
+        piece: Piece,
+        reflected: Option<DVec4>,
+    ) -> Option<Caster<'s>> {
+        let Outlook { receivers, near_pyramid, across, places, .. } = &self.outlook;
         let view = self.view();
-        let culling = self.settings.culling;
-        let interest = self.settings.show.into();
-        let audience = Audience::new(posed, stalls, view, interest, culling.on, scissor, view.picture);
-        let within = audience.receivers_within(receivers, view.camera.eye);
-        let casters: Vec<_> = self
-            .scene
-            .instances()
-            .enumerate()
-            .filter(|(_, (_, node, mesh))| node.casts_shadow && !mesh.indices.is_empty())
-            .filter(|(_, (_, _, mesh))| mesh.primitives.iter().any(|primitive| primitive.casts_shadow))
-            .map(|(instance, (node_index, node, mesh))| {
-                let world_from_object = self.pose.world_from_object[node_index];
-                let bounds = self.pose.bounds(self.scene, node_index);
-                let corners = bounds.corners().map(|corner| world_from_object.transform_point3(corner));
-                let ends_on = |within| match posed.kind {
-                    LightKind::Directional => None,
-                    // The far plane is to show what it does to volumes without end.
-                    _ if view.camera.far.is_some() => None,
-                    _ => ending_plane(posed.position, corners, within),
-                };
-                let end = ends_on(&within).or_else(|| ends_on(receivers));
-                let in_range = bounds.transformed(&world_from_object).distance_to(posed.position) <= posed.range;
-                Caster {
-                    capabilities: self.capabilities,
-                    scene: self.scene,
-                    pose: self.pose,
-                    view,
-                    view_number: self.outlook.view,
-                    before_mirror: places[instance] == Place::Before,
-                    near_pyramid,
-                    across: &across[instance],
-                    instance,
-                    node_index,
-                    node,
-                    mesh,
-                    light: posed,
-                    sight: audience.sight(instance, &corners, in_range, end),
-                    end,
-                    receivers,
-                    eye_count: OnceCell::new(),
-                    cutout: OnceCell::new(),
-                }
-            })
-            .collect();
-        Some(casters)
+        let (node_index, node, mesh) = self.scene.instances().nth(instance)?;
+        let world_from_object = self.pose.world_from_object[node_index];
+        let world_from_object = reflected.map_or(world_from_object, |plane| reflection(plane) * world_from_object);
+        let bounds = self.pose.bounds(self.scene, node_index);
+        let corners = bounds.corners().map(|corner| world_from_object.transform_point3(corner));
+        let ends_on = |within| match light.kind {
+            LightKind::Directional => None,
+            // The far plane is to show what it does to volumes without end.
+            _ if view.camera.far.is_some() => None,
+            _ => ending_plane(light.position, corners, within),
+        };
+        let end = ends_on(within).or_else(|| ends_on(receivers));
+        let in_range = bounds.transformed(&world_from_object).distance_to(light.position) <= light.range;
+        let body = Body::boxed(&bounds, &world_from_object);
+        let own = reflected.is_none().then_some(instance);
+        Some(Caster {
+            capabilities: self.capabilities,
+            scene: self.scene,
+            pose: self.pose,
+            world_from_object,
+            piece,
+            reflected,
+            view,
+            view_number: self.outlook.view,
+            before_mirror: places[instance] == Place::Before,
+            near_pyramid,
+            across: &across[instance],
+            instance,
+            node_index,
+            node,
+            mesh,
+            light,
+            sight: audience.sight((own, &body), &corners, in_range, end),
+            end,
+            receivers,
+            eye_count: OnceCell::new(),
+            cutout: OnceCell::new(),
+        })
     }
 
     fn ask(&self, light: usize, scissor: [u32; 4]) -> counting::Ask<'a> {
@@ -561,7 +593,6 @@ impl<'a> Frame<'a> {
             solid,
             overflow: counting.overflow,
             values: self.settings.show == Show::Stencil,
-            undisturbed: self.plan.budget.mirror_mask != 0 && self.settings.show == Show::Shadow,
         }
     }
 

@@ -15,7 +15,7 @@ pub use counting::{Counting, MAX_COUNT_BITS, Overflow};
 pub use culling::{Culling, LightBounds};
 pub use halo::{Halos, MAX_HALO_WIDTH};
 pub use lighting::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
-pub use mirrors::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorMode, MirrorPlace, Mirrors};
+pub use mirrors::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorLight, MirrorMode, MirrorPlace, Mirrors};
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -39,8 +39,8 @@ struct Light {
     kind: u32,
     slide: u32,                 // a layer of `slides`
     slide_scale: f32,           // slide halves a metre beside the axis, one metre before the light
+    hand: f32,                  // -1: reflected, with all that it projects
     _pad0: u32,
-    _pad1: u32,
 }
 
 struct Volume {

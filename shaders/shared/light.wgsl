@@ -70,7 +70,7 @@ fn highlight(sharpness: f32, normal: vec3f, to_light: vec3f, to_eye: vec3f) -> f
 // What a projector's slide lets through on the way from the surface `to_light`.
 fn through_slide(light: Light, to_light: vec3f, from_eye: f32) -> vec3f {
     let along = max(-dot(to_light, light.direction), 1e-6);
-    let down = cross(light.direction, light.right);
+    let down = cross(light.direction, light.right) * light.hand;
     // -1 to 1 over the slide, u to the right, v downward.
     let at = -vec2f(dot(to_light, light.right), dot(to_light, down)) * (light.slide_scale / along);
     // A pixel's size in texels says which level is fine enough.

@@ -387,7 +387,7 @@ impl Shell {
         let Some(loaded) = &self.session.loaded else { return };
         let (settings, scene) = (self.session.settings.clone(), loaded.scene.clone());
         let capabilities = screen.context.capabilities().clone();
-        let lights: Vec<_> = (0..scene.lights.len()).collect();
+        let lights: Vec<_> = (0..scene.lights_in_force(&settings.mirrors)).collect();
         let drawn = Shots::draw(&settings, &scene, &capabilities, (&[settings.technique], &lights), |plan, pose| {
             screen.photograph(plan, &scene, pose).map_err(HeadlessError::from)
         });

@@ -70,7 +70,8 @@ impl Verification {
             };
             let Some(judged) = shots.judge(&scene, &world, settings.size, &goes_on) else { return };
             let wrong = judged.wrong();
-            let lights = judged.found.into_iter().map(|(_, light, found)| (scene.lights[light].name.clone(), found)).collect();
+            let name = |light| scene.light_name(&settings.mirrors, light);
+            let lights = judged.found.into_iter().map(|(_, light, found)| (name(light), found)).collect();
             // Nobody may be waiting any more.
             let _ = sender.send(Finding { settings, lights, surfaces: judged.surfaces, wrong });
             wake();

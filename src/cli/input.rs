@@ -215,11 +215,14 @@ fn at_least_zero(what: &str, value: f64) -> Result<(), InputError> {
 /// # Errors
 /// The first that is not there.
 pub fn check_against(settings: &Settings, scene: &Scene) -> Result<(), InputError> {
-    let count = scene.lights.len();
-    let asked = settings.lights.keys().next_back().copied().unwrap_or(0).max(settings.light);
+    let (count, edited) = (scene.lights.len(), settings.lights.keys().next_back().copied());
+    if let Some(index) = edited.filter(|index| *index >= count) {
+        return Err(InputError::Index { kind: "light", index, count });
+    }
     // Light 0 is what is looked at when nobody chose one, also where there is none.
-    if asked >= count && (asked > 0 || !settings.lights.is_empty()) {
-        return Err(InputError::Index { kind: "light", index: asked, count });
+    let (index, count) = (settings.light, scene.lights_in_force(&settings.mirrors));
+    if index >= count && index > 0 {
+        return Err(InputError::Index { kind: "light", index, count });
     }
     for (&light, edit) in &settings.lights {
         let refused = |what| Err(InputError::LightKind { light, what });

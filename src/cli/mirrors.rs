@@ -6,7 +6,7 @@ use super::command_line::Line;
 use super::input::InputError;
 use super::{by_name, index, names};
 use crate::scene::{Refusal, Scene};
-use crate::settings::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorMode, MirrorPlace, Mirrors};
+use crate::settings::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorLight, MirrorMode, MirrorPlace, Mirrors};
 
 /// What both the window and `render` understand of it.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -27,6 +27,8 @@ pub(super) struct MirrorArguments {
     /// Reflections of fewer pixels are not drawn [default: 0]
     #[arg(long, value_name = "PIXELS")]
     least_pixels: Option<u32>,
+    #[arg(long, value_name = "MODE", help = format!("What mirrors do to light: {} [default: off]", names(MirrorLight::ALL.map(MirrorLight::name))))]
+    mirror_light: Option<String>,
     /// Makes a flat surface a mirror, or a mirror none, such as "12=on" or "3:1=off" for the second primitive of node 3;
     /// can be repeated
     #[arg(long, value_name = "NODE[:PRIMITIVE]=SWITCH", value_parser = edit)]
@@ -45,6 +47,9 @@ impl MirrorArguments {
         }
         if let Some(name) = &self.fresnel {
             mirrors.fresnel = by_name("fresnel", name, [false, true], switch)?;
+        }
+        if let Some(name) = &self.mirror_light {
+            mirrors.light = by_name("mirror light", name, MirrorLight::ALL, MirrorLight::name)?;
         }
         mirrors.texture = self.mirror_texture.unwrap_or(mirrors.texture);
         mirrors.least_pixels = self.least_pixels.unwrap_or(mirrors.least_pixels);
@@ -70,7 +75,7 @@ fn edit(text: &str) -> Result<(MirrorPlace, bool), String> {
 
 /// The options that give `mirrors` again.
 pub(super) fn write(mirrors: &Mirrors, line: &mut Line) {
-    let Mirrors { mode, bounces, last, fresnel, texture, least_pixels, edits } = mirrors;
+    let Mirrors { mode, bounces, last, fresnel, texture, least_pixels, light, edits } = mirrors;
     let default = Mirrors::default();
     if *mode != default.mode {
         line.option("--mirrors", mode.name());
@@ -89,6 +94,9 @@ pub(super) fn write(mirrors: &Mirrors, line: &mut Line) {
     }
     if *least_pixels != default.least_pixels {
         line.option("--least-pixels", &least_pixels.to_string());
+    }
+    if *light != default.light {
+        line.option("--mirror-light", light.name());
     }
     for (MirrorPlace { node, primitive }, on) in edits {
         line.option("--mirror", &format!("{node}:{primitive}={}", switch(*on)));

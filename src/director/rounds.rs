@@ -26,7 +26,10 @@ impl Frame<'_> {
         let darkens = techniques::row(self.settings.technique).darkens.is_some();
         let mut rounds = Vec::new();
         for light in (0..self.pose.lights.len()).filter(|&light| self.pose.lights[light].on) {
-            let Some(rect) = self.light_rect(light) else { continue };
+            let off_mirror = self.pose.lights[light].off.is_some();
+            // A dark quad knows no beams.
+            let Some(rect) = self.light_rect(light).filter(|_| !(darkens && off_mirror)) else { continue };
+            self.plan.reflections.lights += usize::from(off_mirror && self.outlook.view == 0);
             let points = if darkens { Vec::new() } else { self.points_with_bits(light) };
             match points.first() {
                 // Lights are lit before they are darkened.
@@ -44,7 +47,7 @@ impl Frame<'_> {
     fn points_with_bits(&self, light: usize) -> Vec<usize> {
         let posed = &self.pose.lights[light];
         let bits = self.settings.lighting.area_mode == AreaMode::Bits && self.plan.budget.mirror_mask == 0;
-        if !bits || !posed.shadows || posed.extent.is_point() {
+        if !bits || !posed.shadows || posed.extent.is_point() || posed.off.is_some() {
             return Vec::new();
         }
         let points = (0..self.pose.lights.len()).filter(|&point| self.pose.lights[point].of == posed.of);

@@ -10,10 +10,11 @@ use crate::geometry::planar::height;
 use crate::geometry::sight::{Sight, worst_case};
 use crate::geometry::{Aabb, Body};
 use crate::scene::{Pose, Scene};
-use crate::settings::{AreaMode, LEAST_TEXTURE, MOST_TEXTURE, MirrorMode, Show};
+use crate::settings::{AreaMode, LEAST_TEXTURE, MOST_TEXTURE, MirrorLight, MirrorMode, Show};
 use crate::techniques;
 use crate::techniques::culling::Stalls;
 use crate::techniques::mirrors::Mirrors;
+use crate::techniques::off_mirror::more_ambient;
 use crate::techniques::surfaces::Place;
 
 /// Views in one frame: mirrors that show each other may have more than anyone waits for.
@@ -115,6 +116,9 @@ impl Frame<'_> {
         let camera = self.plan.views[0].camera;
         self.sights = vec![Sight::of_eye(camera.eye, camera.clip_from_world(), self.plan.size)];
         self.mirrors = mirrors;
+        if self.settings.mirrors.light == MirrorLight::Ambient {
+            self.plan.reflections.ambient = more_ambient(self.scene, self.pose, &self.mirrors).to_array();
+        }
         let mut grower = Grower { frame: self, too_small: 0, too_many: 0 };
         grower.grow(0);
         let Grower { too_small, too_many, .. } = grower;

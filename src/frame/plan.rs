@@ -1,6 +1,6 @@
 //! The frame as one value.
 
-use glam::{DVec4, Vec4};
+use glam::{DAffine3, DVec4, Vec4};
 use serde::Serialize;
 
 use super::camera::Camera;
@@ -9,6 +9,7 @@ use super::stencil::BitBudget;
 use super::step::{Action, Draw, DrawSet, Part, Step, Surface};
 use super::validate::Rule;
 use crate::geometry::cutout::{CutoutPlane, Throw};
+use crate::geometry::planar::reflection;
 use crate::geometry::volume::Outline;
 use crate::geometry::{Enclosure, Flaw, VolumeParts};
 use crate::settings::Accumulation;
@@ -67,7 +68,7 @@ impl Gather {
 }
 
 /// Mirrors, and the views that were planned for them.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Reflections {
     /// Mirrors in force, seen or not.
     pub mirrors: usize,
@@ -77,6 +78,10 @@ pub struct Reflections {
     pub worst_case: u64,
     /// Views that were left out for being too small.
     pub too_small: usize,
+    /// Lights off mirrors that reach something in some view.
+    pub lights: usize,
+    /// Linear radiance that mirrors add to ambient light.
+    pub ambient: [f32; 3],
 }
 
 /// One eye: the camera's own, or that eye reflected in the mirrors of a path.
@@ -180,6 +185,12 @@ pub struct VolumePlan {
     pub extrusion: Option<f64>,
     /// The plane it ends on, world space, outward normal and offset; none where it goes to infinity.
     pub end: Option<DVec4>,
+    /// Which part of its caster throws it.
+    #[serde(skip_serializing_if = "Piece::is_whole")]
+    pub piece: Piece,
+    /// The plane, in world space, that its caster is reflected in: it is thrown by the reflection.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reflected: Option<DVec4>,
     /// What its volume is thrown from, where that is not the caster's own silhouette.
     pub cutout: Option<Cutout>,
     /// Whether some of its triangles may have to be turned to face the light: an open caster's.
@@ -192,11 +203,17 @@ pub struct VolumePlan {
 }
 
 impl VolumePlan {
+    /// Where its caster is, or is reflected to, given where it is.
+    #[must_use]
+    pub fn placed(&self, world_from_object: &DAffine3) -> DAffine3 {
+        self.reflected.map_or(*world_from_object, |plane| reflection(plane) * *world_from_object)
+    }
+
     /// Whether a part need be drawn. Z-fail counts what is on screen and behind the surface; other
     /// methods know themselves what they draw.
     #[must_use]
     pub const fn shows(&self, part: Part) -> bool {
-        if self.cutout.is_some() || self.extrusion.is_some() || !matches!(self.method, Method::ZFail | Method::ZFailCompared) {
+        if self.cutout.is_some() || self.extrusion.is_some() || !self.method.is_z_fail() {
             return true;
         }
         match part {
@@ -211,11 +228,37 @@ impl VolumePlan {
     #[must_use]
     pub const fn scissor(&self, of_light: [u32; 4]) -> [u32; 4] {
         let adds_nothing_elsewhere = match self.method {
-            Method::ZPass | Method::ZFail | Method::ZFailCompared => true,
+            Method::ZPass | Method::ZFail | Method::ZFailCompared | Method::ZFailCut => true,
             Method::ExactZPass => self.holds_eye == 0,
             _ => false,
         };
         if self.cutout.is_none() && self.extrusion.is_none() && adds_nothing_elsewhere { self.rect } else { of_light }
+    }
+}
+
+/// Which part of a caster throws a volume.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Piece {
+    /// All of it.
+    #[default]
+    Whole,
+    /// What lies before a plane of world space, higher than `slack` metres.
+    Before {
+        /// Unit normal and offset.
+        plane: DVec4,
+        /// Metres.
+        slack: f64,
+    },
+    /// One of its mesh's primitives, whether that casts shadows or not: a mirror, whose volume is the beam of light off it.
+    Primitive(usize),
+}
+
+impl Piece {
+    /// Whether it is all of the caster.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        *self == Self::Whole
     }
 }
 
@@ -290,11 +333,19 @@ pub enum Method {
     ZFail,
     /// The same, the light cap compared with depth.
     ZFailCompared,
+    /// The same of a caster that was cut: the light cap lies a hair behind the surface that is drawn, which was not.
+    ZFailCut,
     /// Nothing is drawn.
     Dropped,
 }
 
 impl Method {
+    /// Sides and both caps, counted behind the surface.
+    #[must_use]
+    pub const fn is_z_fail(self) -> bool {
+        matches!(self, Self::ZFail | Self::ZFailCompared | Self::ZFailCut)
+    }
+
     /// A word or two for people.
     #[must_use]
     pub const fn words(self) -> &'static str {
@@ -303,6 +354,7 @@ impl Method {
             Self::ExactZPass => "exact z-pass",
             Self::ZFail => "z-fail",
             Self::ZFailCompared => "z-fail, compared",
+            Self::ZFailCut => "z-fail, cut",
             Self::ZPlus => "ZP+",
             Self::ZPlusMirrored => "ZP+, mirrored",
             Self::Dropped => "left out",
@@ -353,6 +405,10 @@ pub enum Reason {
     ReachesNothing,
     /// The caster throws no shadow on the near rectangle.
     NearPlaneClear,
+    /// It is the outline of a mirror, beyond which its light shines.
+    Beam,
+    /// The caster stands in the light's way to the mirror: its reflection stands in the way of the reflected light.
+    BeforeMirror,
 }
 
 impl Reason {
@@ -379,6 +435,8 @@ impl Reason {
             Self::OutOfView => "its shadow is out of view",
             Self::ReachesNothing => "its shadow meets no surface that is lit and in view",
             Self::NearPlaneClear => "it throws no shadow on the near plane",
+            Self::Beam => "the mirror's outline bounds the light that comes off it",
+            Self::BeforeMirror => "the caster stands in the light's way to the mirror",
         }
     }
 }

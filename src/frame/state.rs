@@ -67,6 +67,9 @@ impl Depth {
     /// Light caps whose own surface is surely in the depth buffer: they can never be nearer, so the
     /// test that would decide by equality is not asked (DESIGN section 4).
     pub const NEVER: Self = Self::plain(Compare::Never, false);
+    /// Light caps whose triangles were cut, compared with a surface that was not: the same plane, but rounded otherwise.
+    /// Pushed back by a few steps they lie behind it, as they would if nothing were rounded.
+    pub const NEARER_CUT: Self = Self::NEARER.with_bias(DepthBias { constant: -8, slope: 0 });
     /// What is counted by colour instead of stencil, behind the surface: all that [`Self::NEARER`]
     /// refuses.
     pub const NOT_NEARER: Self = Self::plain(Compare::LessEqual, false);

@@ -421,7 +421,7 @@ fn check_wide(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
         }
         let light_cap = matches!(part.part, Part::LightCapKept | Part::LightCapTurned);
         let everywhere = (light_cap && volume.method == Method::ZFail) || part.part == Part::DarkCap;
-        if !matches!(volume.method, Method::ZFail | Method::ZFailCompared) {
+        if !volume.method.is_z_fail() {
             return Err("wide counts are z-fail's");
         }
         if depth.compare != if everywhere { Compare::Always } else { Compare::LessEqual } {

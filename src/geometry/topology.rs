@@ -141,13 +141,24 @@ impl Topology {
     /// Of triangles that are welded already, all of which cast: the volume's vertices are `welded`.
     #[must_use]
     pub fn of_welded(triangles: Vec<[u32; 3]>, welded: &[Vec3]) -> Self {
+        let mut topology = Self::joined(triangles, welded);
+        topology.find_solids(welded);
+        topology
+    }
+
+    /// The same of a part of another mesh: which of the triangles count from both sides is as it was there.
+    #[must_use]
+    pub fn of_part(triangles: Vec<[u32; 3]>, welded: &[Vec3], two_sided: Vec<bool>) -> Self {
+        Self { two_sided, ..Self::joined(triangles, welded) }
+    }
+
+    fn joined(triangles: Vec<[u32; 3]>, welded: &[Vec3]) -> Self {
         let same: Vec<u32> = (0..welded.len() as u32).collect();
         let weld = Weld { welded_of_vertex: same.clone(), vertex_of_welded: same };
         let mut topology = Self { weld, mesh_triangles: (0..triangles.len() as u32).collect(), triangles, ..Self::default() };
         topology.report.triangles = topology.triangles.len();
         topology.report.welded_vertices = welded.len();
         topology.find_edges();
-        topology.find_solids(welded);
         topology
     }
 

@@ -8,11 +8,11 @@
 use glam::{Mat4, Vec3, Vec4};
 
 use crate::frame::{Cutout, CutoutShape};
-use crate::geometry::Facing;
 use crate::geometry::cutout::append_cutout;
 use crate::geometry::flatten::Flattener;
 use crate::geometry::silhouette::silhouette;
 use crate::geometry::volume::{Caster, VolumeIndices, VolumeParts};
+use crate::geometry::{Facing, Portion};
 
 /// Memory that cut-outs' volumes are built in, kept from frame to frame.
 #[derive(Default)]
@@ -35,6 +35,15 @@ pub fn thrown(cutout: &Cutout) -> Mat4 {
 }
 
 impl CutoutScratch {
+    /// Appends a portion's vertices, as they are and to be thrown; gives where they start.
+    pub fn append_portion(&mut self, portion: &Portion) -> u32 {
+        let first = self.vertices.len() as u32;
+        for w in [1.0, 0.0] {
+            self.vertices.extend(portion.welded.iter().map(|place| place.extend(w).to_array()));
+        }
+        first
+    }
+
     /// Appends the volume thrown from a cut-out of `caster`. Also where its vertices start among
     /// [`Self::vertices`], or `None` where they are the mesh's own.
     pub fn append(

@@ -8,6 +8,7 @@ use glam::{DAffine3, DMat3, DMat4, DVec4, Mat4, Vec3, Vec4};
 use super::context::{Context, GpuError};
 use super::cutouts::{CutoutScratch, thrown};
 use super::merged::Merged;
+use super::portions::{self, Portions};
 use super::scene_buffers::SceneBuffers;
 use super::slides::Slides;
 use super::types::{Draw, Frame, Light, Object, Volume};
@@ -63,6 +64,10 @@ struct Scratch {
     short_indices: Vec<u16>,
     volume: VolumeScratch,
     cutouts: CutoutScratch,
+    portions: Portions,
+    /// What is drawn reflected in a plane: by view, instance and plane, as bits.
+    reflected: Vec<Object>,
+    reflected_numbers: HashMap<(usize, usize, [u64; 4]), usize>,
     parts: Vec<Option<VolumeParts>>,
     enclosures: Vec<[f32; 4]>,
 }
@@ -178,6 +183,9 @@ impl FrameBuffers {
             let uniform = Draw { constant: draw.constant, light, swell, ..Draw::default() };
             append(&mut scratch.draws, bytemuck::bytes_of(&uniform));
         }
+        // What looks at all lights knows no beams.
+        let beams = pose.lights.iter().zip(&mut scratch.lights).filter(|(posed, _)| posed.off.is_some());
+        beams.for_each(|(_, light)| light.intensity = [0.0; 3]);
         scratch.frames.clear();
         for view in &plan.views {
             append(&mut scratch.frames, bytemuck::bytes_of(&frame(plan, view, scene, pose)));
@@ -249,25 +257,39 @@ impl FrameBuffers {
         scratch.short_indices.clear();
         scratch.volumes.clear();
         scratch.cutouts.vertices.clear();
+        scratch.portions.clear();
+        scratch.reflected.clear();
+        scratch.reflected_numbers.clear();
         self.volume_indices.clear();
         self.first_vertices.clear();
         let instances: Vec<_> = scene.instances().collect();
         for (number, (volume, wanted)) in plan.volumes.iter().zip(&scratch.parts).enumerate() {
             let (node_index, node, mesh) = instances[volume.instance];
-            let light = light_in_object(&pose.world_from_object[node_index], &pose.lights[volume.light]).as_vec4();
+            let world_from_object = volume.placed(&pose.world_from_object[node_index]);
+            let light = light_in_object(&world_from_object, &pose.lights[volume.light]).as_vec4();
+            // Instances of all views come first, and then what is reflected.
+            let object = match volume.reflected {
+                None => volume.view * instances.len() + volume.instance,
+                Some(plane) => {
+                    let number = plan.views.len() * instances.len() + scratch.reflected.len();
+                    let key = (volume.view, volume.instance, plane.to_array().map(f64::to_bits));
+                    *scratch.reflected_numbers.entry(key).or_insert_with(|| {
+                        scratch.reflected.push(object(&plan.views[volume.view].camera.clip_from_world(), &world_from_object));
+                        number
+                    })
+                }
+            };
             scratch.volumes.push(Volume {
                 light_in_object: light.to_array(),
-                end_in_object: end_in_object(volume.end, &pose.world_from_object[node_index]).to_array(),
+                end_in_object: end_in_object(volume.end, &world_from_object).to_array(),
                 thrown: match volume.method {
-                    Method::ZPlus | Method::ZPlusMirrored => near_from_object(
-                        &plan.views[volume.view],
-                        &pose.lights[volume.light],
-                        &pose.world_from_object[node_index],
-                    ),
+                    Method::ZPlus | Method::ZPlusMirrored => {
+                        near_from_object(&plan.views[volume.view], &pose.lights[volume.light], &world_from_object)
+                    }
                     _ => volume.cutout.as_ref().map_or(Mat4::IDENTITY, thrown),
                 }
                 .to_cols_array_2d(),
-                object: u32::try_from(volume.view * instances.len() + volume.instance).unwrap_or(0),
+                object: u32::try_from(object).unwrap_or(0),
                 by_matrix: u32::from(volume.cutout.is_some()),
                 #[expect(clippy::cast_possible_truncation, reason = "the GPU works in f32")]
                 extrusion: volume.extrusion.unwrap_or(0.0) as f32,
@@ -276,7 +298,7 @@ impl FrameBuffers {
             let first = same_shape[number];
             if first != number {
                 self.volume_indices.push(self.volume_indices[first].clone());
-                self.first_vertices.push(None);
+                self.first_vertices.push(self.first_vertices[first]);
                 continue;
             }
             let Some(parts) = *wanted else {
@@ -293,6 +315,13 @@ impl FrameBuffers {
             };
             const SHORT: wgpu::IndexFormat = wgpu::IndexFormat::Uint16;
             const LONG: wgpu::IndexFormat = wgpu::IndexFormat::Uint32;
+            if !volume.piece.is_whole() {
+                let portion = scratch.portions.of(volume, (mesh, &pose.world_from_object[node_index]), &vertices.welded);
+                let first = scratch.cutouts.append_portion(portion);
+                self.volume_indices.push((scratch.volume.append(portion.caster(), light, parts, &mut scratch.indices), LONG));
+                self.first_vertices.push(Some(first));
+                continue;
+            }
             let (indices, format, first_vertex) = match (&volume.cutout, volume.flaw) {
                 (Some(cutout), _) => {
                     let (indices, first_vertex) = scratch.cutouts.append(caster, light, cutout, parts, &mut scratch.indices);
@@ -357,6 +386,7 @@ impl FrameBuffers {
         };
         self.scratch.objects.clear();
         self.scratch.objects.extend(plan.views.iter().flat_map(described));
+        self.scratch.objects.append(&mut self.scratch.reflected);
     }
 
     /// Indices built this frame, and their bytes.
@@ -395,10 +425,11 @@ fn append(bytes: &mut Vec<u8>, uniform: &[u8]) {
 
 /// For each volume the first whose indices are its own too: one caster's in one light, seen in several views.
 fn same_shape(plan: &FramePlan) -> Vec<usize> {
-    let mut first: HashMap<(usize, usize, bool, bool), usize> = HashMap::new();
+    let mut first = HashMap::new();
     let shape = |(number, volume): (usize, &VolumePlan)| {
         let plain = volume.cutout.is_none() && volume.flaw.is_none() && volume.method != Method::Dropped;
-        let key = (volume.instance, volume.light, volume.outline == Outline::Polygons, volume.extrusion.is_some());
+        let of = (volume.instance, volume.light, volume.reflected.is_some(), portions::key(&volume.piece));
+        let key = (of, volume.outline == Outline::Polygons, volume.extrusion.is_some());
         if plain { *first.entry(key).or_insert(number) } else { number }
     };
     plan.volumes.iter().enumerate().map(shape).collect()
@@ -434,13 +465,14 @@ fn end_in_object(end: Option<DVec4>, world_from_object: &DAffine3) -> Vec4 {
 fn frame(plan: &FramePlan, view: &View, scene: &Scene, pose: &Pose) -> Frame {
     #[expect(clippy::cast_precision_loss, reason = "pixels fit f32 exactly")]
     let size = view.picture.map(|side| side as f32);
+    let more = Vec3::from(plan.reflections.ambient);
     Frame {
         eye: view.camera.eye.as_vec3().to_array(),
         exposure: plan.exposure / scale(plan),
         scale: scale(plan),
-        ambient_sky: scene.environment.ambient_sky.to_array(),
+        ambient_sky: (scene.environment.ambient_sky + more).to_array(),
         smooth_terminator: f32::from(u8::from(plan.smooth_terminator)),
-        ambient_ground: scene.environment.ambient_ground.to_array(),
+        ambient_ground: (scene.environment.ambient_ground + more).to_array(),
         light_count: u32::try_from(pose.lights.len()).unwrap_or(u32::MAX),
         background_top: scene.environment.background[0].to_array(),
         #[expect(clippy::cast_possible_truncation, reason = "the GPU works in f32")]
@@ -483,6 +515,8 @@ fn light(light: &PosedLight, scale: f32, slides: &Slides) -> Light {
         slide: light.slide.map_or(0, |slide| slides.layer(slide)),
         // The slide's corners touch the outer cone; one of a half-space would be endless.
         slide_scale: std::f32::consts::SQRT_2 / outer.clamp(1e-3, 1.55).tan(),
-        _pad: [0; 2],
+        // A reflection's right is its left.
+        hand: if light.off.is_some_and(|off| off.plane.is_some()) { -1.0 } else { 1.0 },
+        _pad: 0,
     }
 }

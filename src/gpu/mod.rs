@@ -11,6 +11,7 @@ mod labels;
 mod lines;
 mod merged;
 pub mod pipelines;
+mod portions;
 pub mod readback;
 mod scene_buffers;
 pub mod shaders;

@@ -73,8 +73,10 @@ pub struct Light {
     pub slide: u32,
     /// Slide halves a metre beside the axis, one metre before the light.
     pub slide_scale: f32,
+    /// -1 for a light that is reflected, with all that it projects; else 1.
+    pub hand: f32,
     #[doc(hidden)]
-    pub _pad: [u32; 2],
+    pub _pad: u32,
 }
 
 /// `struct Volume` of `shared/frame.wgsl`.

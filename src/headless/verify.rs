@@ -296,7 +296,8 @@ impl Shots {
             let drawn = drawn.map_or("what no view has".into(), |(path, instance)| self.words(scene, path, instance));
             [self.words(scene, &seen.paths()[wrong.path], wrong.instance), drawn]
         });
-        let eye_in_shadow = self.lights.iter().any(|light| world.shades(self.camera.eye, light));
+        let eye_in_shadow =
+            self.lights.iter().filter(|light| light.off.is_none()).any(|light| world.shades(self.camera.eye, light));
         Some(Judged { verdicts, found, seen, surfaces, first_wrong, eye_in_shadow })
     }
 
@@ -405,7 +406,7 @@ pub fn verify(request: &VerifyRequest) -> Result<Report, HeadlessError> {
         let lights: Vec<_> = match (place, request.light) {
             (Some(_), _) => vec![settings.light],
             (None, Some(light)) => vec![light],
-            (None, None) => (0..scene.lights.len()).collect(),
+            (None, None) => (0..scene.lights_in_force(&settings.mirrors)).collect(),
         };
         let view = verify_view((&context, &mut renderer), &scene, settings, &request.techniques, &lights, &mut kept)?;
         report.add(&view, &scene, settings, &mut rows);
@@ -449,7 +450,7 @@ impl Report {
                 technique: *technique,
                 exact,
                 light: *light,
-                name: scene.lights[*light].name.clone(),
+                name: scene.light_name(&settings.mirrors, *light),
                 views: 0,
                 decided: 0,
                 lit: 0,

@@ -59,7 +59,13 @@ pub fn strays(scene: &Scene, base: &Settings, only: Option<usize>, count: usize,
         }
         let Some(moment) = &moment else { break };
         let light = only.unwrap_or_else(|| random.usize(..scene.lights.len()));
-        strays.push(moment.stray(scene, light, view, &mut random));
+        let mut stray = moment.stray(scene, light, view, &mut random);
+        // Light off mirrors is the harder part.
+        let off_mirrors = scene.lights_in_force(&base.mirrors) / scene.lights.len() - 1;
+        if only.is_none() && off_mirrors > 0 && random.u32(..3) > 0 {
+            stray.settings.light = scene.lights.len() + light * off_mirrors + random.usize(..off_mirrors);
+        }
+        strays.push(stray);
     }
     strays
 }

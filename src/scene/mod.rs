@@ -14,6 +14,7 @@ pub mod gltf;
 mod halo;
 pub mod mesh;
 pub mod mirror;
+pub mod off_mirror;
 pub mod open;
 pub mod pick;
 pub mod pose;
@@ -24,6 +25,7 @@ pub use animation::{Animation, AnimationChoice, Channel, Interpolation, Property
 pub use area::{Extent, Sampling};
 pub use mesh::{Mesh, MeshError, MeshParts, MorphTarget, Primitive, SkinVertex};
 pub use mirror::{Mirror, PosedMirror, Reflective, Refusal};
+pub use off_mirror::OffMirror;
 pub use open::{Loading, OpenError, load_on_thread, open};
 pub use pose::{DeformedMesh, Pose, PosedLight};
 pub use slides::{BuiltInSlide, Slide};

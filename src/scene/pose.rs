@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use glam::{DAffine3, DQuat, DVec3, DVec4, Vec3};
 
-use super::{AnimationChoice, Extent, LightKind, Property, Scene, Slide, Transform, deform};
+use super::{AnimationChoice, Extent, LightKind, OffMirror, Property, Scene, Slide, Transform, deform};
 use crate::geometry::Aabb;
 use crate::settings::{LightEdit, SlideChoice};
 
@@ -25,7 +25,8 @@ pub struct Pose {
     /// One per node: where the mesh it shows is in the world. Identity for meshes deformed in
     /// world space (skinned or flattened ones); otherwise the node's own.
     pub world_from_object: Vec<DAffine3>,
-    /// One per light of the scene; where lights with a size were expanded, their other points after those.
+    /// One per light of the scene, and one for each of them off each mirror, where those are asked for; where lights with
+    /// a size were expanded, their other points after those.
     pub lights: Vec<PosedLight>,
 }
 
@@ -56,6 +57,8 @@ pub struct PosedLight {
     pub center: DVec3,
     /// The light of the scene that this is, or is a point of.
     pub of: usize,
+    /// The mirror that it comes off, for a light that is a reflection.
+    pub off: Option<OffMirror>,
     /// What shines.
     pub extent: Extent,
     /// What a spot projects.
@@ -80,6 +83,7 @@ impl Default for PosedLight {
             right: DVec3::X,
             center: DVec3::ZERO,
             of: 0,
+            off: None,
             extent: Extent::Point,
             slide: None,
             kind: LightKind::Point,
@@ -184,6 +188,7 @@ fn place_light(scene: &Scene, index: usize, world_from_node: &[DAffine3], edit: 
         right: right.try_normalize().unwrap_or_else(|| direction.any_orthonormal_vector()),
         center: position,
         of: index,
+        off: None,
         extent: if light.kind == LightKind::Directional { Extent::Point } else { extent },
         slide: slide.filter(|_| matches!(light.kind, LightKind::Spot { .. })),
         kind: light.kind,

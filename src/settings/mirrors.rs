@@ -21,6 +21,8 @@ pub struct Mirrors {
     pub texture: u32,
     /// Pixels: views of a smaller area are not drawn; 0 draws every one that shows.
     pub least_pixels: u32,
+    /// What mirrors do to light.
+    pub light: MirrorLight,
     /// What was changed of the scene's mirrors.
     #[serde(with = "as_list")]
     pub edits: BTreeMap<MirrorPlace, bool>,
@@ -53,6 +55,7 @@ impl Default for Mirrors {
             fresnel: false,
             texture: 256,
             least_pixels: 0,
+            light: MirrorLight::default(),
             edits: BTreeMap::new(),
         }
     }
@@ -155,6 +158,45 @@ impl LastBounce {
         match self {
             Self::Grey => "past the last bounce mirrors are neutral grey (Kilgard 3)",
             Self::Fade => "each bounce fades towards the grey that lies past the last",
+        }
+    }
+}
+
+/// What mirrors do to light.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MirrorLight {
+    /// Nothing: what they show is all they do.
+    #[default]
+    Off,
+    /// More ambient light, as much as would come off them were it spread evenly (K section 3).
+    Ambient,
+    /// Each mirror throws each light back once: a virtual light behind it that shines through its outline and casts
+    /// shadows on both parts of the way (K section 3; Diefenbach).
+    Virtual,
+}
+
+impl MirrorLight {
+    /// Every one, in the order people see them.
+    pub const ALL: [Self; 3] = [Self::Off, Self::Ambient, Self::Virtual];
+
+    /// The name on the command line and in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Off => "off",
+            Self::Ambient => "ambient",
+            Self::Virtual => "virtual",
+        }
+    }
+
+    /// One sentence for help and panel.
+    #[must_use]
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Off => "light does not come off mirrors",
+            Self::Ambient => "mirrors add ambient light, as much as comes off them (Kilgard 3)",
+            Self::Virtual => "every mirror throws every light back once, with exact shadows on both parts of the way",
         }
     }
 }

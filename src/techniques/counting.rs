@@ -6,7 +6,7 @@
 
 use std::cell::OnceCell;
 
-use glam::{DVec3, DVec4};
+use glam::{DAffine3, DVec3, DVec4};
 
 use super::culling::{Sight, around};
 use super::overflow::{self, Way};
@@ -14,7 +14,9 @@ use super::{Row, depth_bounds, wide};
 use crate::frame::plan::View;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
-use crate::frame::{Capabilities, Cutout, Draw, DrawSet, Method, Part, Program, Step, Target, VolumePart, VolumePlan};
+use crate::frame::{
+    Capabilities, Cutout, Draw, DrawSet, Method, Part, Piece, Program, Reason, Step, Target, VolumePart, VolumePlan,
+};
 use crate::geometry::eye_count::{EyeCount, holding_count, inside_solid};
 use crate::geometry::frustum::NearPyramid;
 use crate::geometry::light_in_object;
@@ -31,6 +33,12 @@ pub struct Caster<'a> {
     pub scene: &'a Scene,
     /// And where everything is now.
     pub pose: &'a Pose,
+    /// Object space to world space: of a reflected caster to where it seems to be.
+    pub world_from_object: DAffine3,
+    /// Which part of it casts.
+    pub piece: Piece,
+    /// The plane it is reflected in.
+    pub reflected: Option<DVec4>,
     /// All of it lies before the mirror that the view looks through.
     pub before_mirror: bool,
     /// The view it is counted for.
@@ -69,7 +77,7 @@ impl Caster<'_> {
     #[must_use]
     pub fn across_near_plane(&self) -> bool {
         *self.across.get_or_init(|| {
-            let world_from_object = &self.pose.world_from_object[self.node_index];
+            let world_from_object = &self.world_from_object;
             let bounds = self.pose.bounds(self.scene, self.node_index);
             if !self.near_pyramid.may_touch(&bounds, world_from_object) {
                 return false;
@@ -86,7 +94,7 @@ impl Caster<'_> {
     /// a triangle seen from behind always has one seen from the front before it.
     #[must_use]
     pub fn surface_covers(&self) -> bool {
-        if !self.before_mirror {
+        if !self.before_mirror || self.reflected.is_some() {
             return false;
         }
         let solid = self.mesh.topology.report().is_solid();
@@ -103,7 +111,7 @@ impl Caster<'_> {
     }
 
     fn count_at_eye(&self) -> Option<i32> {
-        let world_from_object = self.pose.world_from_object[self.node_index];
+        let world_from_object = self.world_from_object;
         let eye = world_from_object.inverse().transform_point3(self.view.camera.eye);
         let light = light_in_object(&world_from_object, self.light);
         let bounds = self.pose.bounds(self.scene, self.node_index);
@@ -122,14 +130,14 @@ impl Caster<'_> {
     /// The light in object space: a point with w = 1, or the direction towards it with w = 0.
     #[must_use]
     pub fn light_in_object(&self) -> DVec4 {
-        light_in_object(&self.pose.world_from_object[self.node_index], self.light)
+        light_in_object(&self.world_from_object, self.light)
     }
 
     /// The corners, in object space, of what holds everything that could receive its shadow, and the
     /// eye.
     #[must_use]
     pub fn receivers_in_object(&self) -> [DVec3; 8] {
-        let object_from_world = self.pose.world_from_object[self.node_index].inverse();
+        let object_from_world = self.world_from_object.inverse();
         self.receivers.corners().map(|corner| object_from_world.transform_point3(corner))
     }
 
@@ -139,13 +147,13 @@ impl Caster<'_> {
     pub fn may_shadow_near_rectangle(&self) -> bool {
         let bounds = self.pose.bounds(self.scene, self.node_index);
         let rectangle = self.view.camera.near_rectangle();
-        may_shadow(self.light.into(), rectangle, &bounds, &self.pose.world_from_object[self.node_index])
+        may_shadow(self.light.into(), rectangle, &bounds, &self.world_from_object)
     }
 
     /// The front's winding on screen.
     #[must_use]
     pub fn winding(&self) -> Winding {
-        self.view.winding.through(self.pose.world_from_object[self.node_index].matrix3.determinant())
+        self.view.winding.through(self.world_from_object.matrix3.determinant())
     }
 }
 
@@ -170,8 +178,6 @@ pub struct Ask<'a> {
     pub overflow: Overflow,
     /// The count itself is shown, not only whether it is zero.
     pub values: bool,
-    /// What other views have counted in the same pixels' bits must stay: no batches.
-    pub undisturbed: bool,
 }
 
 /// The volumes of one light, decided.
@@ -202,30 +208,10 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
     for caster in casters {
         let decided = caster.sight.dropped.map(|reason| (Method::Dropped, reason)).or_else(|| (row.decide)(caster));
         let Some((method, reason)) = decided else { continue };
-        let holds_eye = if method == Method::ExactZPass { caster.holds_eye().unwrap_or(0) } else { 0 };
-        let cutout = caster.cutout.get().copied();
-        let turns = !caster.mesh.topology.report().is_solid();
         if method != Method::Dropped {
             counted.push((caster, volumes.len()));
         }
-        volumes.push(VolumePlan {
-            view: caster.view_number,
-            instance: caster.instance,
-            light,
-            method,
-            reason,
-            case: caster.sight.case,
-            parts: caster.sight.parts,
-            rect: caster.sight.rect,
-            holds_eye,
-            outline: row.outline,
-            extrusion: row.extrusion,
-            end: if cutout.is_none() && row.extrusion.is_none() { caster.end } else { None },
-            cutout,
-            turns,
-            winding: caster.winding(),
-            flaw: None,
-        });
+        volumes.push(planned(row, caster, light, (method, reason)));
     }
     if counted.is_empty() {
         return nothing();
@@ -274,8 +260,33 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
     count
 }
 
+/// The plan of one caster's volume.
+pub(super) fn planned(row: &Row, caster: &Caster<'_>, light: usize, (method, reason): (Method, Reason)) -> VolumePlan {
+    let cutout = caster.cutout.get().copied();
+    VolumePlan {
+        view: caster.view_number,
+        instance: caster.instance,
+        light,
+        method,
+        reason,
+        case: caster.sight.case,
+        parts: caster.sight.parts,
+        rect: caster.sight.rect,
+        holds_eye: if method == Method::ExactZPass { caster.holds_eye().unwrap_or(0) } else { 0 },
+        outline: row.outline,
+        extrusion: row.extrusion,
+        end: if cutout.is_none() && row.extrusion.is_none() { caster.end } else { None },
+        piece: caster.piece,
+        reflected: caster.reflected,
+        cutout,
+        turns: matches!(caster.piece, Piece::Primitive(_)) || !caster.mesh.topology.report().is_solid(),
+        winding: caster.winding(),
+        flaw: None,
+    }
+}
+
 /// The counting steps of some volumes, by their numbers.
-fn steps(row: &Row, members: &[usize], volumes: &[VolumePlan], budget: BitBudget, ask: &Ask<'_>) -> Vec<Step> {
+pub(super) fn steps(row: &Row, members: &[usize], volumes: &[VolumePlan], budget: BitBudget, ask: &Ask<'_>) -> Vec<Step> {
     let mut steps = Vec::new();
     for group in row.groups.iter().copied().flatten() {
         for winding in [Winding::Ccw, Winding::Cw] {
@@ -302,7 +313,7 @@ fn steps(row: &Row, members: &[usize], volumes: &[VolumePlan], budget: BitBudget
 }
 
 /// What a batch leaves becomes one bit, and the field starts anew.
-fn between_batches(batch: usize, base: u8, budget: BitBudget, ask: &Ask<'_>) -> Vec<Step> {
+pub(super) fn between_batches(batch: usize, base: u8, budget: BitBudget, ask: &Ask<'_>) -> Vec<Step> {
     let collapse = collapse(format!("light {}: collapse batch {batch}", ask.light), budget, ask);
     let start = (base != 0).then(|| {
         full_screen(

@@ -243,15 +243,20 @@ impl<'a> Audience<'a> {
         if both.is_empty() { *receivers } else { both.union(&Aabb::around(eye, eye)) }
     }
 
-    /// What of `instance`'s volume matters: its box has the world-space `corners` (as
-    /// [`Aabb::corners`] orders them), and the volume ends on `end`.
+    /// What of a caster's volume matters: its box `body` has the world-space `corners` (as [`Aabb::corners`] orders
+    /// them), and the volume ends on `end`. `instance` is the caster's, where it stands there itself and is not reflected.
     #[must_use]
-    pub fn sight(&self, instance: usize, corners: &[DVec3; 8], in_range: bool, end: Option<DVec4>) -> Sight {
+    pub fn sight(
+        &self,
+        (instance, body): (Option<usize>, &Body),
+        corners: &[DVec3; 8],
+        in_range: bool,
+        end: Option<DVec4>,
+    ) -> Sight {
         let dropped = |reason| Sight { dropped: Some(reason), case: None, parts: VolumeParts::NONE, rect: self.scissor };
         if !in_range {
             return dropped(Reason::OutOfRange);
         }
-        let body = &self.stalls.boxes[instance];
         let near_clear = !self.occlusion.may_meet(body);
         let in_view = self.view.may_meet(body) && self.stalls.in_window(body);
         let case = match (near_clear, in_view) {
@@ -270,7 +275,7 @@ impl<'a> Audience<'a> {
         if !(in_view || self.view.may_meet(&volume) && self.stalls.in_window(&volume)) {
             return dropped(Reason::OutOfView);
         }
-        let receives = |receiver: &usize| *receiver == instance || self.stalls.boxes[*receiver].may_meet(&volume);
+        let receives = |receiver: &usize| Some(*receiver) == instance || self.stalls.boxes[*receiver].may_meet(&volume);
         if !self.receivers.iter().any(receives) {
             return dropped(Reason::ReachesNothing);
         }

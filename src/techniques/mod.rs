@@ -25,6 +25,7 @@ pub mod halo;
 pub mod labels;
 pub mod mirrors;
 mod none;
+pub mod off_mirror;
 mod one_sided;
 mod overflow;
 pub mod own_bits;

@@ -18,7 +18,7 @@ use glam::Vec3;
 use super::counting::Ask;
 use super::{Caster, Row};
 use crate::geometry::overlap::{Cone, Heap, OverlapScratch};
-use crate::geometry::{self, Planes, light_in_object};
+use crate::geometry::{self, Planes};
 use crate::settings::{Overflow, Technique};
 
 /// What every note on a count that could overflow holds.
@@ -103,19 +103,13 @@ pub(super) fn decide(row: &Row, casters: &[&Caster<'_>], ask: &Ask) -> Decision 
     let batch = if ask.budget.count_mask == 0 { 0 } else { ask.budget.batched().largest() };
     let alone = bounds.iter().max().copied().unwrap_or(0);
     let by_wide = ask.samples == 1 || ask.capabilities.wide_four_samples;
-    if alone <= batch && !((ask.values || ask.undisturbed) && by_wide) {
+    if alone <= batch && !(ask.values && by_wide) {
         let (batch_of, batches) = in_batches(&cones, &bounds, batch.into());
         let note = format!("{too_many}: counted in {batches} batches of at most {batch}, each collapsed into one bit");
         return Decision { way: Way::Batches(batch_of, batches), note: Some(note) };
     }
     if by_wide {
-        let why = if ask.values {
-            "its count is shown".to_owned()
-        } else if ask.undisturbed {
-            "a batch's collapse would reach other views".to_owned()
-        } else {
-            format!("one caster alone has up to {alone}")
-        };
+        let why = if ask.values { "its count is shown".to_owned() } else { format!("one caster alone has up to {alone}") };
         let format = ask.capabilities.wide_counts.name();
         return Decision { way: Way::Wide, note: Some(format!("{too_many}, and {why}: counted wide, in {format}")) };
     }
@@ -157,7 +151,8 @@ fn cone(caster: &Caster<'_>, everywhere: bool) -> Cone {
     if everywhere {
         return Cone::EVERYWHERE;
     }
-    Cone::about(&caster.pose.world_bounds(caster.scene, caster.node_index), light)
+    let bounds = caster.pose.bounds(caster.scene, caster.node_index).transformed(&caster.world_from_object);
+    Cone::about(&bounds, light)
 }
 
 /// Memory that bounds are found in.
@@ -175,7 +170,7 @@ impl Scratch {
         self.planes.build(topology, &self.welded);
         let bounds = caster.pose.bounds(caster.scene, caster.node_index);
         let posed = geometry::Caster { topology, welded: &self.welded, planes: &self.planes, bounds: &bounds };
-        let light = light_in_object(&caster.pose.world_from_object[caster.node_index], caster.light).as_vec4();
+        let light = caster.light_in_object().as_vec4();
         self.overlap.winding_bound(posed, light, enough)
     }
 }

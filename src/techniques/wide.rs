@@ -92,9 +92,36 @@ const GROUPS: &[Group] = &[
         constant: TURNED,
         ..WIDE
     },
+    Group {
+        method: Method::ZFailCut,
+        parts: &[Part::Sides],
+        label: "add sides of what was cut",
+        why: "Faces that are not nearer than the surface: back faces add one, front faces take one away.",
+        ..WIDE
+    },
+    Group {
+        method: Method::ZFailCut,
+        parts: &[Part::LightCapKept],
+        label: "add light caps of what was cut",
+        why: "Triangles that were cut have other last bits of depth than the surface: pushed back a hair, they count behind it.",
+        depth: NOT_NEARER_CUT,
+        ..WIDE
+    },
+    Group {
+        method: Method::ZFailCut,
+        parts: &[Part::LightCapTurned],
+        label: "add turned light caps of what was cut",
+        why: "Triangles of open casters turned to face the light: the same order of vertices, the other sign.",
+        depth: NOT_NEARER_CUT,
+        constant: TURNED,
+        ..WIDE
+    },
     z_fail::dark_caps(Method::ZFail, DARK_CAPS),
     z_fail::dark_caps(Method::ZFailCompared, DARK_CAPS),
+    z_fail::dark_caps(Method::ZFailCut, DARK_CAPS),
 ];
+
+const NOT_NEARER_CUT: Depth = Depth::NOT_NEARER.with_bias(Depth::NEARER_CUT.bias);
 
 const DARK_CAPS: Group = Group { label: "add dark caps", depth: Depth::IGNORE, ..WIDE };
 

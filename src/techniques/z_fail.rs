@@ -80,8 +80,35 @@ pub(super) const GROUPS: &[Group] = &[
         stencil: StencilState::count_z_fail_turned,
         ..Group::PLAIN
     },
+    Group {
+        method: Method::ZFailCut,
+        parts: &[Part::Sides],
+        label: "count sides of what was cut, z-fail",
+        why: "Faces behind the surface, from infinity towards the eye.",
+        stencil: StencilState::count_z_fail,
+        ..Group::PLAIN
+    },
+    Group {
+        method: Method::ZFailCut,
+        parts: &[Part::LightCapKept],
+        label: "count light caps of what was cut, z-fail",
+        why: "Triangles that were cut have other last bits of depth than the surface: pushed back a hair, they count behind it.",
+        stencil: StencilState::count_z_fail,
+        depth: Depth::NEARER_CUT,
+        ..Group::PLAIN
+    },
+    Group {
+        method: Method::ZFailCut,
+        parts: &[Part::LightCapTurned],
+        label: "count turned light caps of what was cut, z-fail",
+        why: "Triangles of open casters turned to face the light: the same order of vertices, the operations swapped.",
+        stencil: StencilState::count_z_fail_turned,
+        depth: Depth::NEARER_CUT,
+        ..Group::PLAIN
+    },
     dark_caps(Method::ZFail, DARK_CAPS),
     dark_caps(Method::ZFailCompared, DARK_CAPS),
+    dark_caps(Method::ZFailCut, DARK_CAPS),
 ];
 
 const DARK_CAPS: Group =
@@ -95,10 +122,13 @@ pub(super) const fn dark_caps(method: Method, everywhere: Group) -> Group {
 
 /// Z-fail for one caster: how its light cap must be drawn.
 pub(super) fn decide(caster: &Caster<'_>) -> (Method, Reason) {
-    if caster.across_near_plane() {
-        (Method::ZFailCompared, Reason::AcrossNearPlane)
+    let compared = if caster.piece.is_whole() { Method::ZFailCompared } else { Method::ZFailCut };
+    if caster.reflected.is_some() {
+        (Method::ZFailCompared, Reason::BeforeMirror)
+    } else if caster.across_near_plane() {
+        (compared, Reason::AcrossNearPlane)
     } else if !caster.surface_covers() {
-        (Method::ZFailCompared, Reason::SurfaceMayBeMissing)
+        (compared, Reason::SurfaceMayBeMissing)
     } else {
         (Method::ZFail, Reason::SurfaceCovers)
     }

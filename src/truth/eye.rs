@@ -29,7 +29,7 @@ pub const SLACK: f64 = 1e-9;
 
 /// What is seen in a mirror must be so much farther over its plane than what surely is not, in
 /// [`World::clip_slack`]s: rounding decides in between.
-const CLIP_ROUNDING: f64 = 3.0;
+pub const CLIP_ROUNDING: f64 = 3.0;
 
 /// Two surfaces are one before the other where their depths differ by so many steps of 24 bits.
 const DEPTH_STEPS: f64 = 4.0;

@@ -2,15 +2,16 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 
 use super::compare::{Verdict, Verdicts};
-use super::eye::{Eye, PLACES, SLACK, Shown, enters};
+use super::eye::{CLIP_ROUNDING, Eye, PLACES, SLACK, Shown, enters};
 use super::path::{Path, Surfaces};
 use super::tree::{Bundle, Stack};
 use super::world::{Asked, Casts, Face, NONE, World};
 use crate::frame::Camera;
-use crate::scene::{LightKind, PosedLight};
+use crate::geometry::planar::{height, reflection};
+use crate::scene::{LightKind, OffMirror, PosedLight};
 
 /// Where the centre's ray to the light begins when it is moved along the surface, to the right and
 /// down, in [`NUDGE`]s.
@@ -238,6 +239,9 @@ impl<'a> Caster<'a> {
                 return Verdict::Edge;
             }
         }
+        if let Some(off) = light.off {
+            return self.light_off(light, off, surface);
+        }
         if !light.shadows {
             return Verdict::Lit;
         }
@@ -256,6 +260,41 @@ impl<'a> Caster<'a> {
             _ if shaded.contains(&!shaded[0]) => Verdict::Edge,
             [true, ..] => Verdict::Shadow,
             [false, ..] => Verdict::Lit,
+        }
+    }
+
+    /// The same of a light off a mirror: through the mirror's outline, and free of what casts on both parts of the way.
+    /// The part to the mirror is asked for behind it, as it were, the points being reflected: from the real light
+    /// straight on to there is as far, and through the same place of the mirror.
+    fn light_off(&mut self, light: &PosedLight, off: OffMirror, surface: &Surface) -> Verdict {
+        let Some(plane) = off.plane else { return Verdict::Shadow };
+        let over = Some((plane, self.world.clip_slack()));
+        let mut beam = Shadow { mirror: u32::try_from(off.mirror).unwrap_or(NONE), ..Shadow::new(self.world, light, surface) };
+        self.world.tree.descend(&mut beam, &mut self.stack);
+        let in_beam = beam.counts.map(|count| count > 0);
+        let mut free = [true; RAYS];
+        let mut unsure = false;
+        if light.shadows && in_beam.contains(&true) {
+            let reflection = reflection(plane);
+            let reflected = Surface {
+                points: surface.points.map(|point| reflection.transform_point3(point)),
+                displaced: surface.displaced.map(|point| reflection.transform_point3(point)),
+                face: NONE,
+            };
+            let mut before = Shadow { over, ..Shadow::new(self.world, &light.reflected(plane), &reflected) };
+            let mut onward = Shadow { over, ..Shadow::new(self.world, light, surface) };
+            for shadow in [&mut onward, &mut before] {
+                self.world.tree.descend(shadow, &mut self.stack);
+                unsure |= shadow.unsure;
+                free.iter_mut().zip(shadow.counts).for_each(|(free, count)| *free &= count == 0);
+            }
+        }
+        let mut lit = in_beam;
+        lit.iter_mut().zip(free).for_each(|(lit, free)| *lit &= free);
+        match lit {
+            _ if unsure || lit.contains(&!lit[0]) => Verdict::Edge,
+            [true, ..] => Verdict::Lit,
+            [false, ..] => Verdict::Shadow,
         }
     }
 }
@@ -288,6 +327,12 @@ struct Shadow<'a> {
     counts_on: bool,
     /// A triangle that every ray meets.
     whole: Option<u32>,
+    /// Only what is so far over a plane casts: unit normal and offset, and metres.
+    over: Option<(DVec4, f64)>,
+    /// Not what casts is asked for, but the triangles of this mirror, from whichever side; [`NONE`] for what casts.
+    mirror: u32,
+    /// Something casts so near that plane that rounding may have it on either side.
+    unsure: bool,
 }
 
 impl<'a> Shadow<'a> {
@@ -342,16 +387,27 @@ impl<'a> Shadow<'a> {
             counts: [0; RAYS],
             counts_on: false,
             whole: None,
+            over: None,
+            mirror: NONE,
+            unsure: false,
         }
     }
 
     /// Whether this ray crosses the triangle so that it counts.
     #[inline]
-    fn crosses(&self, face: &Face, asked: &Asked, direction: DVec3) -> bool {
-        asked.meet(direction).is_some_and(|met| {
-            let facing = (met.counter_clockwise != face.mirrored) == self.from_light;
-            met.distance > 0.0 && met.distance < self.end && (facing || face.casts == Casts::Always)
-        })
+    fn crosses(&mut self, face: &Face, asked: &Asked, apex: DVec3, direction: DVec3) -> bool {
+        let Some(met) = asked.meet(direction).filter(|met| met.distance > 0.0 && met.distance < self.end) else { return false };
+        if self.mirror != NONE {
+            return true;
+        }
+        let facing = (met.counter_clockwise != face.mirrored) == self.from_light;
+        if !facing && face.casts != Casts::Always {
+            return false;
+        }
+        let Some((plane, slack)) = self.over else { return true };
+        let height = height(plane, apex + direction * met.distance);
+        self.unsure |= height.abs() <= CLIP_ROUNDING * slack;
+        height > slack
     }
 }
 
@@ -369,15 +425,18 @@ impl Bundle for Shadow<'_> {
 
     fn meet(&mut self, index: u32) -> bool {
         let face = &self.world.faces[index as usize];
-        if face.casts == Casts::Never {
+        let low = |(plane, slack)| face.corners.iter().all(|corner| height(plane, *corner) <= slack);
+        let asked_for = if self.mirror == NONE { face.casts != Casts::Never } else { face.mirror == self.mirror };
+        if !asked_for || self.over.is_some_and(low) {
             return true;
         }
         let mut crossed = [false; RAYS];
         let mut first = 0;
-        for &(apex, end) in &self.apices[..self.apex_count] {
+        for at in 0..self.apex_count {
+            let (apex, end) = self.apices[at];
             let asked = face.from(apex);
-            for (crossed, direction) in crossed[first..end].iter_mut().zip(&self.directions[first..end]) {
-                *crossed = self.crosses(face, &asked, *direction);
+            for (ray, crossed) in (first..end).zip(&mut crossed[first..end]) {
+                *crossed = self.crosses(face, &asked, apex, self.directions[ray]);
             }
             first = end;
         }

@@ -66,7 +66,12 @@
 //! reflected again. Seen is only what lies over the plane, by more than what rounding may make of it: a hit no
 //! more than a hair over it is an edge, and triangles with no corner higher than the renderer cuts are out of
 //! sight, a frame's back for example. The places of a pixel must agree on every mirror of the way. Mirrors cast
-//! shadows as other surfaces do; light off mirrors is not followed.
+//! shadows as other surfaces do.
+//!
+//! Light off a mirror ([`crate::scene::off_mirror`]) is judged as the light it comes from would be: the way from the
+//! reflected light to the surface must lead through one of the mirror's triangles and meet no caster after it, and the
+//! way from the light itself to the surface's reflection must meet none before it. What is met less than a hair off the
+//! mirror's plane is an edge.
 //!
 //! Besides the verdicts [`World::trace`] tells which instance each pixel shows through which mirrors, to hold a
 //! picture of exactly that against ([`Surfaces`]). Where surfaces of two instances lie closer together than

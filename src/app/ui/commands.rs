@@ -36,7 +36,7 @@ fn one(command: Command, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_>
         Command::NextTechnique => settings.technique = after(&Technique::ALL, settings.technique),
         Command::NextShow => settings.show = after(&Show::ALL, settings.show),
         Command::NextLight => {
-            let lights = view.scene.map_or(0, |scene| scene.lights.len()).max(1);
+            let lights = view.scene.map_or(0, |scene| scene.lights_in_force(&settings.mirrors)).max(1);
             settings.light = (settings.light + 1) % lights;
         }
         Command::NextScene => {

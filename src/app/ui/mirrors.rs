@@ -9,7 +9,7 @@ use crate::frame::stencil::BitBudget;
 use crate::frame::{Camera, FramePlan};
 use crate::scene::pick::surface_at;
 use crate::scene::{Mirror, Reflective, Scene};
-use crate::settings::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorMode, MirrorPlace, Mirrors};
+use crate::settings::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorLight, MirrorMode, MirrorPlace, Mirrors};
 
 /// A mode's name on its button.
 const fn title(mode: MirrorMode) -> &'static str {
@@ -54,6 +54,16 @@ pub fn mirrors(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
     });
     ui.checkbox(&mut settings.fresnel, "More where seen obliquely (Fresnel)")
         .on_hover_text("Half-mirrors reflect more, the more obliquely they are seen (Schlick 1994), instead of evenly");
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Light off them").color(style::WEAK));
+        style::tight(ui);
+        for light in MirrorLight::ALL {
+            let response = ui.selectable_label(settings.light == light, capital(light.name()));
+            if response.on_hover_text(capital(light.about())).clicked() {
+                settings.light = light;
+            }
+        }
+    });
     let tip = "Reflections of fewer pixels are not drawn: their mirrors are grey";
     field(ui, "Least pixels", tip, |ui| ui.add(number(&mut settings.least_pixels).range(0..=1_000_000).speed(5.0)));
     if let Some(plan) = view.plan {
@@ -88,6 +98,9 @@ fn cost(plan: &FramePlan) -> String {
     );
     if reflections.too_small > 0 {
         words.push_str(&format!(" {} were too small.", reflections.too_small));
+    }
+    if reflections.lights > 0 {
+        words.push_str(&format!(" {} lights come off mirrors.", reflections.lights));
     }
     words
 }

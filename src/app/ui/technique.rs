@@ -49,15 +49,19 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
     }
     complexity(ui, desk, view);
     let lights = view.scene.map_or(&[][..], |scene| &scene.lights);
+    let in_force = view.scene.map_or(0, |scene| scene.lights_in_force(&desk.settings.mirrors));
     let of_one_light = desk.settings.show.looks_at_light();
     ui.add_enabled_ui(of_one_light && !lights.is_empty(), |ui| {
         field(ui, "Light", "The light whose stencil count, shadow, volumes or cases are shown", |ui| {
-            let name =
-                |index: usize| lights.get(index).map_or_else(|| format!("{index}"), |light| format!("{index}  {}", light.name));
+            let mirrors = desk.settings.mirrors.clone();
+            let name = |index: usize| match view.scene {
+                Some(scene) if index < in_force => format!("{index}  {}", scene.light_name(&mirrors, index)),
+                _ => format!("{index}"),
+            };
             egui::ComboBox::from_id_salt("light-k")
                 .selected_text(name(desk.settings.light))
                 .show_ui(ui, |ui| {
-                    for index in 0..lights.len() {
+                    for index in 0..in_force {
                         ui.selectable_value(&mut desk.settings.light, index, name(index));
                     }
                 })
