@@ -87,6 +87,12 @@
 //! that asks for a count which is *not* zero, and cannot ask for a view as well: in a view's own pixels it is right, and
 //! other views count anew; where a view's count must stay it is counted wide.
 //!
+//! Light comes off mirrors too, once: a virtual light behind the mirror is a light of the pose as any other
+//! ([`scene::off_mirror`]), and its count has a batch more, the beam of the mirror's outline
+//! ([`techniques::off_mirror`]). Volumes may be thrown from a part of a caster, and from its reflection
+//! ([`frame::Piece`]). Where a triangle was cut its light cap differs from the drawn surface in last bits; such caps are
+//! pushed back a hair ([`frame::Method::ZFailCut`]).
+//!
 //! `--show cases`, `bounds`, `overflow` and the rest read what the plan decided; none decides by itself.
 //!
 //! # Spaces and depth

@@ -13,7 +13,7 @@ use common::Stage;
 use glam::DVec3;
 use image::RgbaImage;
 use obscura::scene::stock;
-use obscura::settings::{LightEdit, MirrorMode, Settings, Show, Technique};
+use obscura::settings::{LightEdit, MirrorLight, MirrorMode, Mirrors, Settings, Show, Technique};
 
 const SIZE: [u32; 2] = [240, 135];
 
@@ -67,7 +67,7 @@ fn every_stock_scene_and_technique_looks_as_it_did() {
 }
 
 /// How reflections are drawn: of every scene with mirrors, by every mode but the default, which the scenes' own pictures
-/// have; and what is shown of mirrors alone.
+/// have; what is shown of mirrors alone; and light off mirrors.
 #[test]
 fn every_mirror_mode_looks_as_it_did() {
     let mut stage = Stage::new();
@@ -82,6 +82,11 @@ fn every_mirror_mode_looks_as_it_did() {
         for show in [Show::Views, Show::Birdseye] {
             let shot = stage.shoot(&Settings { show, ..settings.clone() }, &scene);
             faults.extend(compare(&format!("{}-{}", row.name, show.name()), &shot.image).err());
+        }
+        for light in [MirrorLight::Ambient, MirrorLight::Virtual] {
+            let mirrors = Mirrors { light, ..Mirrors::default() };
+            let shot = stage.shoot(&Settings { mirrors, ..settings.clone() }, &scene);
+            faults.extend(compare(&format!("{}-light-{}", row.name, light.name()), &shot.image).err());
         }
         for mode in MirrorMode::ALL.into_iter().filter(|mode| *mode != MirrorMode::default()) {
             settings.mirrors.mode = mode;

@@ -15,7 +15,7 @@ use obscura::frame::stencil::{StencilOp, StencilState};
 use obscura::frame::validate::validate;
 use obscura::frame::{Action, Capabilities, Draw, DrawSet, FramePlan, Method, Program};
 use obscura::scene::{AlphaMode, LightKind, Material, Scene, stock};
-use obscura::settings::{AreaMode, CameraChoice, LightEdit, Settings, Show, Technique};
+use obscura::settings::{AreaMode, CameraChoice, LightEdit, MirrorLight, Settings, Show, Technique};
 
 /// Two lights, one with a range; a solid, a mirrored solid, a sheet, a masked and a blended one.
 fn varied() -> Scene {
@@ -90,6 +90,14 @@ fn three_bounces_of_the_barbershop_plan_as_written() {
     let mut settings = Settings { technique: Technique::ZFail, size: [320, 180], ..Settings::default() };
     settings.mirrors.bounces = 3;
     assert_text("barbershop-3-bounces", &plan(&scene, &settings));
+}
+
+#[test]
+fn light_off_a_mirror_plans_as_written() {
+    let scene = stock::build("figure3").unwrap().unwrap();
+    let mut settings = Settings { technique: Technique::Auto, size: [320, 180], ..Settings::default() };
+    settings.mirrors.light = MirrorLight::Virtual;
+    assert_text("figure3-light-off-mirrors", &plan(&scene, &settings));
 }
 
 /// With depth bounds: the second light has an end.

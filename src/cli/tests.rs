@@ -11,8 +11,8 @@ use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
 use crate::settings::{
     Accumulation, AreaMode, Complexity, Counting, Culling, Halos, LEAST_TEXTURE, LastBounce, LightBounds, Lighting,
-    MAX_AREA_SAMPLES, MAX_BOUNCES, MAX_COUNT_BITS, MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE, MirrorMode, MirrorPlace, Mirrors,
-    Overflow, SlideChoice, Texturing,
+    MAX_AREA_SAMPLES, MAX_BOUNCES, MAX_COUNT_BITS, MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE, MirrorLight, MirrorMode,
+    MirrorPlace, Mirrors, Overflow, SlideChoice, Texturing,
 };
 
 fn command(line: &str) -> Result<Command, InputError> {
@@ -51,8 +51,12 @@ fn every_argument_reaches_its_setting() {
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --area-mode bits --light-sample 3 --accumulate 256 \
          --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on \
+<<<<<<< HEAD
          --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --mirror-texture 77 --least-pixels 25 --mirror 12=on --mirror 3:1=off \
          --halo 4 --halo 5=off --halo-color 0.5,0,1 --halo-width 2.5 \
+=======
+         --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --mirror-texture 77 --mirror-light virtual --least-pixels 25 --mirror 12=on --mirror 3:1=off \
+>>>>>>> c999ad3 (Light off mirrors: tests by hand, goldens, its own plan; README and the architecture page)
          --light-edit 1:on=true --adapter llvm --shaders wgsl",
     );
     let edit = LightEdit {
@@ -102,6 +106,7 @@ fn every_argument_reaches_its_setting() {
             fresnel: true,
             texture: 77,
             least_pixels: 25,
+            light: MirrorLight::Virtual,
             edits: BTreeMap::from([
                 (MirrorPlace { node: 12, primitive: 0 }, true),
                 (MirrorPlace { node: 3, primitive: 1 }, false),
@@ -396,15 +401,17 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         any::<bool>(),
         LEAST_TEXTURE..=MOST_TEXTURE,
         any::<u32>(),
+        prop::sample::select(&MirrorLight::ALL[..]),
         prop::collection::btree_map(place, any::<bool>(), 0..4),
     )
-        .prop_map(|(mode, bounces, last, fresnel, texture, least_pixels, edits)| Mirrors {
+        .prop_map(|(mode, bounces, last, fresnel, texture, least_pixels, light, edits)| Mirrors {
             mode,
             bounces,
             last,
             fresnel,
             texture,
             least_pixels,
+            light,
             edits,
         });
     let part = || 0.0f32..=1.0;

@@ -34,7 +34,7 @@ pub(super) const ROW: Row = Row {
     outline: Outline::Silhouette,
     extrusion: None,
     darkens: None,
-    groups: &[GROUPS],
+    groups: &[GROUPS, CUT],
 };
 
 pub(super) const GROUPS: &[Group] = &[
@@ -80,6 +80,12 @@ pub(super) const GROUPS: &[Group] = &[
         stencil: StencilState::count_z_fail_turned,
         ..Group::PLAIN
     },
+    dark_caps(Method::ZFail, DARK_CAPS),
+    dark_caps(Method::ZFailCompared, DARK_CAPS),
+];
+
+/// Of casters that were cut, which only light off mirrors has.
+const CUT: &[Group] = &[
     Group {
         method: Method::ZFailCut,
         parts: &[Part::Sides],
@@ -106,8 +112,6 @@ pub(super) const GROUPS: &[Group] = &[
         depth: Depth::NEARER_CUT,
         ..Group::PLAIN
     },
-    dark_caps(Method::ZFail, DARK_CAPS),
-    dark_caps(Method::ZFailCompared, DARK_CAPS),
     dark_caps(Method::ZFailCut, DARK_CAPS),
 ];
 

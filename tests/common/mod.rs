@@ -56,7 +56,7 @@ impl Stage {
     /// Holds every light's `show shadow` of the scene that was set last, drawn by the settings'
     /// technique, against exact rays.
     pub fn verify(&mut self, settings: &Settings, scene: &Scene) -> Vec<Comparison> {
-        let lights: Vec<_> = (0..scene.lights.len()).collect();
+        let lights: Vec<_> = (0..scene.lights_in_force(&settings.mirrors)).collect();
         let device = (&self.context, &mut self.renderer);
         let view = verify_view(device, scene, settings, &[settings.technique], &lights, &mut Kept::default()).unwrap();
         assert_eq!(view.judged.first_wrong, None, "{} pixels show another surface", view.judged.surfaces.pixels.len());
