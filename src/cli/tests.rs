@@ -51,12 +51,8 @@ fn every_argument_reaches_its_setting() {
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --area-mode bits --light-sample 3 --accumulate 256 \
          --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on \
-<<<<<<< HEAD
-         --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --mirror-texture 77 --least-pixels 25 --mirror 12=on --mirror 3:1=off \
-         --halo 4 --halo 5=off --halo-color 0.5,0,1 --halo-width 2.5 \
-=======
          --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --mirror-texture 77 --mirror-light virtual --least-pixels 25 --mirror 12=on --mirror 3:1=off \
->>>>>>> c999ad3 (Light off mirrors: tests by hand, goldens, its own plan; README and the architecture page)
+         --halo 4 --halo 5=off --halo-color 0.5,0,1 --halo-width 2.5 \
          --light-edit 1:on=true --adapter llvm --shaders wgsl",
     );
     let edit = LightEdit {
