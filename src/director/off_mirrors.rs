@@ -9,7 +9,7 @@ use crate::geometry::{Aabb, VolumeParts};
 use crate::scene::OffMirror;
 use crate::settings::Technique;
 use crate::techniques::counting::LightCount;
-use crate::techniques::culling::{self, Audience};
+use crate::techniques::culling::{self};
 use crate::techniques::{Caster, Row, off_mirror};
 
 impl Frame<'_> {
@@ -86,11 +86,5 @@ impl Frame<'_> {
             return None;
         }
         crate::geometry::frustum::hull_rect(beam.hull(), &view.camera.clip_from_world(), view.picture)
-    }
-
-    /// What one light's shadows could matter to in the view.
-    pub(super) fn audience<'s>(&'s self, posed: &'s crate::scene::PosedLight, scissor: [u32; 4]) -> Audience<'s> {
-        let (view, interest) = (self.view(), self.settings.show.into());
-        Audience::new(posed, &self.outlook.stalls, view, interest, self.settings.culling.on, scissor, view.picture)
     }
 }
