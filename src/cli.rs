@@ -17,6 +17,7 @@ mod input;
 mod light_edit;
 mod lighting;
 mod mirrors;
+mod playground;
 
 pub use command_line::render_command;
 pub use input::{InputError, MAX_COORDINATE, MAX_EXPOSURE, check, check_against};
@@ -31,7 +32,7 @@ use glam::DVec3;
 
 use crate::failures;
 use crate::scene::{AnimationChoice, stock};
-use crate::settings::{CameraChoice, Failure, LightEdit, MAX_SIZE, SceneChoice, Settings, Show, Technique};
+use crate::settings::{Api, CameraChoice, Failure, LightEdit, MAX_SIZE, SceneChoice, Settings, Show, Technique};
 
 /// What the arguments ask for.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,6 +55,15 @@ pub enum Command {
         request: Box<VerifyRequest>,
         /// Prints what was found as JSON.
         json: bool,
+    },
+    /// Draws a board of the playground, or prints its calls.
+    Playground {
+        /// What is drawn.
+        settings: Settings,
+        /// The PNG file to write.
+        out: Option<PathBuf>,
+        /// Whose calls are printed.
+        calls: Option<Api>,
     },
     /// Names scenes, techniques and shows.
     List {
@@ -178,6 +188,7 @@ impl Parsed {
                 let json = verify.json;
                 Command::Verify { request: Box::new(verify.request()?), json }
             }
+            Some(Subcommands::Playground(playground)) => playground.request()?,
             Some(Subcommands::List { json }) => Command::List { json },
             Some(Subcommands::Info { scene, floor, json }) => Command::Info { scene: scene_choice(&scene)?, floor, json },
             Some(Subcommands::Tour { out }) => Command::Tour { out },
@@ -238,6 +249,11 @@ enum Subcommands {
     /// are decided. Ends with exit code 1 if a technique that claims to be exact has one wrong decided
     /// pixel; techniques known to fail only have theirs counted.
     Verify(Box<VerifyArguments>),
+    /// Draws shapes into the stencil, one after another, every state free to choose
+    ///
+    /// The stencil that comes of it is shown as colours and, with --numbers, as numbers. --calls prints what
+    /// sets the same states in wgpu, Vulkan, Direct3D 12 or OpenGL.
+    Playground(playground::PlaygroundArguments),
     /// Names the stock scenes, the techniques and what can be shown
     List {
         /// Prints JSON
@@ -411,6 +427,8 @@ struct PictureArguments {
     #[command(flatten)]
     complexity: complexity::ComplexityArguments,
     #[command(flatten)]
+    playground: playground::BoardArguments,
+    #[command(flatten)]
     mirrors: mirrors::MirrorArguments,
     #[command(flatten)]
     halos: halo::HaloArguments,
@@ -436,6 +454,7 @@ impl PictureArguments {
                 smooth_terminator: settings.smooth_terminator,
                 lighting: settings.lighting,
                 counting: settings.counting,
+                playground: settings.playground,
                 complexity: settings.complexity,
                 culling: settings.culling,
                 mirrors: settings.mirrors.of_another_scene(),
@@ -482,6 +501,7 @@ impl PictureArguments {
         self.counting.apply(&mut settings.counting)?;
         self.culling.apply(&mut settings.culling)?;
         self.complexity.apply(&mut settings.complexity)?;
+        self.playground.apply(&mut settings.playground)?;
         self.mirrors.apply(&mut settings.mirrors)?;
         self.halos.apply(&mut settings.halos);
         settings.adapter = self.adapter.clone().or(settings.adapter);

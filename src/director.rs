@@ -33,7 +33,7 @@ use crate::techniques::labels::Named;
 use crate::techniques::mirrors::{self, Mirrors};
 use crate::techniques::own_bits::{Round, Shining};
 use crate::techniques::surfaces::Known;
-use crate::techniques::{self, bounds, depth_bounds, show, surfaces, wide};
+use crate::techniques::{self, bounds, depth_bounds, playground, show, surfaces, wide};
 
 /// Why a frame cannot be planned: one line each.
 #[derive(Debug, Error)]
@@ -146,6 +146,10 @@ pub fn plan(
     let mut frame = Frame::new(settings, scene, pose, camera, capabilities);
     frame.plan.gather = gather;
     let whole = frame.whole();
+    if settings.show == Show::Playground {
+        frame.extend(playground::steps(&settings.playground, settings.size, whole));
+        return frame.plan;
+    }
     if frame.plan.views.len() > 1 || matches!(settings.show, Show::Surfaces | Show::Views | Show::Birdseye) {
         if !frame.draw_reflections() {
             frame.finish();
@@ -248,7 +252,7 @@ pub fn plan(
             frame.draw_halos();
             frame.finish();
         }
-        Show::Surfaces | Show::Views | Show::Birdseye => {}
+        Show::Surfaces | Show::Views | Show::Birdseye | Show::Playground => {}
     }
     frame.plan
 }
@@ -279,7 +283,14 @@ impl<'a> Frame<'a> {
     fn new(settings: &'a Settings, scene: &'a Scene, pose: &'a Pose, camera: Camera, capabilities: &'a Capabilities) -> Self {
         let exact_values = matches!(
             settings.show,
-            Show::Shadow | Show::Stencil | Show::Overflow | Show::Surfaces | Show::Views | Show::Birdseye | Show::Complexity
+            Show::Shadow
+                | Show::Stencil
+                | Show::Overflow
+                | Show::Surfaces
+                | Show::Views
+                | Show::Birdseye
+                | Show::Complexity
+                | Show::Playground
         );
         let each_sample = settings.technique != Technique::Wide || capabilities.wide_four_samples;
         let samples = if exact_values || !capabilities.four_samples || !each_sample { 1 } else { settings.samples };
@@ -321,8 +332,8 @@ impl<'a> Frame<'a> {
 
     /// One bit less to count in where lights' bounds are marked.
     fn choose_bits(&mut self) {
-        if self.settings.show == Show::Complexity {
-            // Counting is clamped, and clamping knows no fields.
+        if matches!(self.settings.show, Show::Complexity | Show::Playground) {
+            // Counting is clamped, and clamping knows no fields; and who plays has all of it.
             self.plan.budget = BitBudget::default();
             return;
         }

@@ -10,6 +10,7 @@ use std::process::ExitCode;
 use obscura::cli::{self, Command, WindowRequest};
 use obscura::headless::{self, catalog::Catalog, render::render, tour, verify::verify};
 use obscura::scene::doctor;
+use obscura::techniques::playground;
 use serde::Serialize;
 use tracing_subscriber::EnvFilter;
 
@@ -62,6 +63,15 @@ fn run(command: Command) -> Result<(), Failure> {
             match report.broken_promises() {
                 0 => Ok(()),
                 wrong => Err(Failure(format!("{wrong} pixels are wrong by techniques that claim to be exact"))),
+            }
+        }
+        Command::Playground { settings, out, calls } => {
+            if let Some(out) = out {
+                render(&settings, &out, false)?;
+            }
+            match calls {
+                Some(api) => print(&playground::calls::calls(&settings.playground.board, api)),
+                None => Ok(()),
             }
         }
         Command::List { json } => print_as(&Catalog::new(), json),

@@ -3,12 +3,14 @@
 //! The panel edits a [`Settings`], the command line fills one, tests build one; it knows neither
 //! wgpu nor egui, and nothing flows back into it from the renderer.
 
+pub mod boards;
 mod complexity;
 mod counting;
 mod culling;
 mod halo;
 mod lighting;
 mod mirrors;
+mod playground;
 
 pub use complexity::Complexity;
 pub use counting::{Counting, MAX_COUNT_BITS, Overflow};
@@ -16,6 +18,8 @@ pub use culling::{Culling, LightBounds};
 pub use halo::{Halos, MAX_HALO_WIDTH};
 pub use lighting::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
 pub use mirrors::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorLight, MirrorMode, MirrorPlace, Mirrors};
+
+pub use playground::{Api, Board, Face, Facing, LONGEST_NAME, MOST_SHAPES, Playground, Shape, ShapeKind};
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -69,6 +73,8 @@ pub struct Settings {
     pub lighting: Lighting,
     /// What is left out of counting shadows.
     pub culling: Culling,
+    /// Shapes drawn into the stencil, and their states.
+    pub playground: Playground,
     /// Which fragments depth complexity counts.
     pub complexity: Complexity,
     /// Which surfaces are mirrors, and how what is seen in them is drawn.
@@ -103,6 +109,7 @@ impl Default for Settings {
             lights: BTreeMap::new(),
             lighting: Lighting::default(),
             culling: Culling::default(),
+            playground: Playground::default(),
             complexity: Complexity::default(),
             mirrors: Mirrors::default(),
             halos: Halos::default(),
@@ -290,6 +297,8 @@ pub enum Show {
     Birdseye,
     /// How often each pixel is drawn, in false colour, with a legend.
     Complexity,
+    /// Shapes drawn into the stencil one after another, in place of the scene.
+    Playground,
 }
 
 named! {
@@ -328,7 +337,7 @@ named! {
 
 impl Show {
     /// Everything that can be shown, in the order people see them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Final,
         Self::Stencil,
         Self::Shadow,
@@ -341,6 +350,7 @@ impl Show {
         Self::Surfaces,
         Self::Birdseye,
         Self::Complexity,
+        Self::Playground,
     ];
 
     /// The name on the command line and in files.
@@ -359,6 +369,7 @@ impl Show {
             Self::Surfaces => "surfaces",
             Self::Birdseye => "birdseye",
             Self::Complexity => "complexity",
+            Self::Playground => "playground",
         }
     }
 
@@ -386,6 +397,7 @@ impl Show {
             }
             Self::Birdseye => "from above: the rooms that mirrors make, where they seem to stand, and what is seen of each",
             Self::Complexity => "how often each pixel is drawn: depth complexity in false colour, with a legend",
+            Self::Playground => "the stencil test to play with: shapes drawn one after another, every state free to choose",
         }
     }
 
@@ -394,7 +406,13 @@ impl Show {
     pub const fn looks_at_light(self) -> bool {
         match self {
             Self::Stencil | Self::Shadow | Self::Overflow | Self::Volumes | Self::Cases | Self::Bounds => true,
-            Self::Final | Self::Wireframe | Self::Views | Self::Surfaces | Self::Birdseye | Self::Complexity => false,
+            Self::Final
+            | Self::Wireframe
+            | Self::Views
+            | Self::Surfaces
+            | Self::Birdseye
+            | Self::Complexity
+            | Self::Playground => false,
         }
     }
 }

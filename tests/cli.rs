@@ -119,6 +119,36 @@ fn the_same_arguments_give_the_same_bytes() {
 }
 
 #[test]
+fn the_playground_draws_boards_and_prints_calls() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::write(here.join("b.json"), r#"{"shapes": [{"kind": "star", "front": {"reference": 3, "pass": "replace"}}]}"#)
+        .unwrap();
+    let text = good(here, &[&["playground", "b.json", "--numbers", "--out", "a.png", "--calls", "vulkan"], &SMALL[..]].concat());
+    assert!(text.contains("VK_STENCIL_OP_REPLACE") && text.contains("// 1 star"), "{text}");
+    assert_eq!(image::image_dimensions(here.join("a.png")).unwrap(), (96, 54));
+    assert!(good(here, &["playground", "--calls", "wgpu"]).contains("set_stencil_reference(0x01)"), "without a picture");
+    let words = shlex::split(&read_command(&here.join("a.png")).unwrap().unwrap()).unwrap();
+    let words: Vec<_> = words.iter().skip(1).map(String::as_str).collect();
+    good(here, &words);
+    assert!(std::fs::read(here.join("a.png")).unwrap() == std::fs::read(here.join("obscura.png")).unwrap(), "{words:?}");
+    std::fs::write(here.join("bad.json"), r#"{"shapes": [{"kind": "disc", "radius": 2}]}"#).unwrap();
+    for (board, word) in [
+        ("bad.json", "radius"),
+        ("none.json", "table-2"),
+        ("/dev/zero", "no file"),
+        ("{}", "shapes"),
+        (r#"{"shapes": [{"depth": 2}]}"#, "shape 1: its depth"),
+        (r#"{"shapes": [{"front": {"reference": 256}}]}"#, "256"),
+        (r#"{"shapes": [], "clear_depth": -1}"#, "depth is cleared"),
+    ] {
+        assert!(bad(here, &["playground", board, "--out", "c.png"]).contains(word), "{board}");
+        assert!(bad(here, &["render", "cubes", "--board", board, "--out", "c.png"]).contains(word), "{board}");
+    }
+    assert!(bad(here, &["playground", "--calls", "metal"]).contains("wgpu, vulkan, d3d12, opengl"));
+}
+
+#[test]
 fn depth_complexity_is_printed() {
     let folder = tempfile::tempdir().unwrap();
     let line = [&["render", "cubes", "--show", "complexity", "--complexity", "fragments", "--out", "a.png"], &SMALL[..]].concat();

@@ -114,6 +114,9 @@ fn every_show_looks_as_it_did() {
     // Large enough for its legend.
     let settings = Settings { show: Show::Complexity, size: [480, 270], time: 1.0, ..Settings::default() };
     faults.extend(compare("show-complexity-legend", &stage.shoot(&settings, &scene).image).err());
+    let mut settings = Settings { show: Show::Playground, size: [480, 270], ..Settings::default() };
+    settings.playground.numbers = true;
+    faults.extend(compare("show-playground-numbers", &stage.shoot(&settings, &scene).image).err());
     let settings = Settings { samples: 4, size: SIZE, time: 1.0, ..Settings::default() };
     faults.extend(compare("cubes-4-samples", &stage.shoot(&settings, &scene).image).err());
     assert!(faults.is_empty(), "{}", faults.join("\n"));

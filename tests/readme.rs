@@ -65,6 +65,7 @@ fn every_option_is_listed_and_no_other() {
         &["info", "--help"],
         &["tour", "--help"],
         &["verify", "--help"],
+        &["playground", "--help"],
     ] {
         let output = Command::new(env!("CARGO_BIN_EXE_obscura")).args(command).output().unwrap();
         there.extend(options(&String::from_utf8(output.stdout).unwrap()));

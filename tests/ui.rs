@@ -723,3 +723,57 @@ fn depth_complexity_is_told_in_numbers_while_it_is_shown() {
     assert_eq!(harness.state().settings.complexity, Complexity::Fragments);
     assert!(harness.query_by_label_contains("at most").is_none(), "those were updates");
 }
+
+#[test]
+fn the_playground_is_edited_live() {
+    let mut harness = open(Bench::new());
+    harness.get_by_label("Stencil playground").click();
+    harness.run_steps(3);
+    click(&mut harness, "Open the playground");
+    assert_eq!(harness.state().settings.show, Show::Playground);
+    let shapes = |harness: &Harness<'_, Bench>| harness.state().settings.playground.board.shapes.len();
+    let before = shapes(&harness);
+    click(&mut harness, "Add a shape");
+    assert_eq!(shapes(&harness), before + 1);
+    harness.get_by_label("1 initial values").click();
+    harness.run_steps(3);
+    harness.get_by_label("Back faces apart").click();
+    harness.run_steps(3);
+    let first = &harness.state().settings.playground.board.shapes[0];
+    assert_eq!(first.back, Some(first.front));
+    click(&mut harness, "Remove");
+    assert_eq!(shapes(&harness), before);
+    assert_ne!(harness.state().settings.playground.board.shapes[0].name, "initial values");
+    click(&mut harness, "OpenGL");
+    click(&mut harness, "Copy calls");
+    let copied =
+        |command: &egui::OutputCommand| matches!(command, egui::OutputCommand::CopyText(text) if text.contains("glStencilFunc("));
+    assert!(
+        harness.output().platform_output.commands.iter().any(copied)
+            || harness.query_by_label_contains("glStencilFunc(").is_some()
+    );
+}
+
+#[test]
+fn a_shape_follows_the_mouse() {
+    let mut bench = Bench::new();
+    bench.settings.show = Show::Playground;
+    // A shape's size is a share of the picture's height, and this picture is tall.
+    bench.settings.playground.board.shapes.iter_mut().for_each(|shape| shape.size = [0.02; 2]);
+    bench.settings.playground.board.shapes[1].at = [0.31, 0.46];
+    let camera = bench.settings.camera.clone();
+    let mut harness = open(bench);
+    let rect = harness.state().picture;
+    let at = |harness: &Harness<'_, Bench>| harness.state().settings.playground.board.shapes[1].at;
+    let before = at(&harness);
+    let from = rect.min + rect.size() * vec2(0.31, 0.46);
+    harness.drag_at(from);
+    harness.run_steps(2);
+    harness.hover_at(from + vec2(30.0, 20.0));
+    harness.run_steps(2);
+    harness.drop_at(from + vec2(30.0, 20.0));
+    harness.run_steps(2);
+    let moved = [at(&harness)[0] - before[0], at(&harness)[1] - before[1]];
+    assert!((moved[0] - 30.0 / rect.width()).abs() < 1e-3 && (moved[1] - 20.0 / rect.height()).abs() < 1e-3, "{moved:?}");
+    assert_eq!(harness.state().settings.camera, camera, "the eye stays");
+}

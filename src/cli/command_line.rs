@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::{
     complexity as complexity_options, counting as counting_options, culling as culling_options, halo as halo_options, light_edit,
-    lighting as lighting_options, mirrors as mirror_options, needs_dot,
+    lighting as lighting_options, mirrors as mirror_options, needs_dot, playground as playground_options,
 };
 use crate::scene::AnimationChoice;
 use crate::settings::{CameraChoice, SceneChoice, Settings};
@@ -42,6 +42,7 @@ pub fn render_command(settings: &Settings) -> String {
         adapter,
         shaders,
         mirrors,
+        playground,
         halos,
     } = settings;
     let default = Settings::default();
@@ -113,6 +114,7 @@ pub fn render_command(settings: &Settings) -> String {
     counting_options::write(counting, &mut line);
     culling_options::write(culling, &mut line);
     complexity_options::write(*complexity, &mut line);
+    playground_options::write(playground, &mut line);
     mirror_options::write(mirrors, &mut line);
     halo_options::write(halos, &mut line);
     if let Some(adapter) = adapter {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::{counting, halo, lighting, mirrors};
+use super::{counting, halo, lighting, mirrors, playground};
 use crate::scene::{AnimationChoice, LightKind, Scene};
 use crate::settings::{CameraChoice, LightEdit, MAX_SIZE, Settings, SlideChoice};
 
@@ -34,6 +34,14 @@ pub enum InputError {
         name: String,
         /// The stock scenes.
         known: String,
+    },
+    /// A board of the playground that cannot be read or drawn.
+    #[error("board {name}: {why}")]
+    Board {
+        /// Which.
+        name: String,
+        /// What is wrong with it.
+        why: String,
     },
     /// Nothing where a name should be.
     #[error("{0} is empty")]
@@ -165,6 +173,7 @@ pub fn check(settings: &Settings) -> Result<(), InputError> {
     settings.lights.iter().try_for_each(|(light, edit)| check_light(*light, edit))?;
     counting::check(&settings.counting)?;
     lighting::check(&settings.lighting)?;
+    playground::check(&settings.playground.board)?;
     halo::check(&settings.halos)?;
     mirrors::check(&settings.mirrors)
 }

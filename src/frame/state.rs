@@ -4,12 +4,12 @@
 //! Depth is reverse-Z (DESIGN section 3): 1 at the near plane, 0 at infinity, so `Greater` means
 //! *nearer than what is there*.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::stencil::StencilState;
 
 /// A comparison, as WebGPU names them; `incoming OP stored`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Compare {
     /// Fails always.
@@ -28,6 +28,27 @@ pub enum Compare {
     Greater,
     /// Passes where the incoming value is greater or the same.
     GreaterEqual,
+}
+
+impl Compare {
+    /// Every one, in the order people see them.
+    pub const ALL: [Self; 8] =
+        [Self::Never, Self::Less, Self::LessEqual, Self::Equal, Self::GreaterEqual, Self::Greater, Self::NotEqual, Self::Always];
+
+    /// The name in files and for people.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Never => "never",
+            Self::Less => "less",
+            Self::LessEqual => "less-equal",
+            Self::Equal => "equal",
+            Self::GreaterEqual => "greater-equal",
+            Self::Greater => "greater",
+            Self::NotEqual => "not-equal",
+            Self::Always => "always",
+        }
+    }
 }
 
 /// How depth is tested and written.

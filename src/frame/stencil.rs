@@ -22,7 +22,7 @@
 //! in batches ([`BitBudget::batched`]): after each, one full-screen step ([`StencilState::collapse`])
 //! turns every count that is not zero into the verdict bit and starts the field anew.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::state::Compare;
 
@@ -186,7 +186,7 @@ const fn highest(mask: u8) -> u8 {
 }
 
 /// What happens to the stored value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum StencilOp {
     /// Stays.
@@ -205,6 +205,35 @@ pub enum StencilOp {
     Replace,
     /// All bits turn over.
     Invert,
+}
+
+impl StencilOp {
+    /// Every one, in the order people see them.
+    pub const ALL: [Self; 8] = [
+        Self::Keep,
+        Self::Zero,
+        Self::Replace,
+        Self::Invert,
+        Self::IncrementClamp,
+        Self::DecrementClamp,
+        Self::IncrementWrap,
+        Self::DecrementWrap,
+    ];
+
+    /// The name in files and for people.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Keep => "keep",
+            Self::Zero => "zero",
+            Self::Replace => "replace",
+            Self::Invert => "invert",
+            Self::IncrementClamp => "increment-clamp",
+            Self::DecrementClamp => "decrement-clamp",
+            Self::IncrementWrap => "increment-wrap",
+            Self::DecrementWrap => "decrement-wrap",
+        }
+    }
 }
 
 /// Test and operations for one side of a triangle.
@@ -446,6 +475,12 @@ impl StencilState {
     const fn compare_count(budget: BitBudget, compare: Compare) -> Self {
         let face = StencilFace::test(compare);
         Self { front: face, back: face, read_mask: budget.shadow_mask(), write_mask: 0 }
+    }
+
+    /// As the playground has it: any state at all, in a frame whose stencil belongs to nobody else.
+    #[must_use]
+    pub const fn played(front: StencilFace, back: StencilFace, read_mask: u8, write_mask: u8) -> Self {
+        Self { front, back, read_mask, write_mask }
     }
 
     /// Depth complexity (K section 7): every fragment that updates its pixel counts, or where `hidden` every fragment. It

@@ -252,7 +252,7 @@ pub enum Program {
     Tint,
     /// The same, with fragments below the alpha cutoff left out.
     TintMasked,
-    /// A light's bounds, no colour.
+    /// A light's bounds, or a shape of the playground, no colour.
     Bounds,
     /// Lines and areas over the picture.
     Lines,
@@ -268,6 +268,8 @@ pub enum Program {
     Identity,
     /// Swollen surfaces in one colour.
     Halo,
+    /// Full screen: the playground's stencil as colours and numbers.
+    Playground,
 }
 
 /// What a step draws, by number.
@@ -284,6 +286,8 @@ pub enum DrawSet {
     Volumes(Vec<VolumePart>),
     /// A convex solid, both sides of it.
     Enclosure(Enclosure),
+    /// Corners in clip space, three a triangle.
+    Triangles(Vec<[f32; 4]>),
     /// All edges of these instances, numbered as [`Surface::instance`].
     Edges(Vec<usize>),
     /// Names over the finished picture.
@@ -344,6 +348,8 @@ pub enum LabelKind {
     Caster,
     /// A colour of a legend: the words alone, without plate or mark.
     Legend,
+    /// A shape of the playground.
+    Shape,
 }
 
 /// One primitive of one instance.

@@ -151,6 +151,7 @@ fn contents(set: &DrawSet) -> String {
             format!("names {}", list.join(" "))
         }
         DrawSet::Enclosure(solid) => format!("a {}", solid.name()),
+        DrawSet::Triangles(corners) => format!("{} triangles", corners.len() / 3),
         DrawSet::Strokes(strokes) => format!("{} lines", strokes.len()),
         DrawSet::Edges(instances) => format!("edges of {} instances", instances.len()),
     }

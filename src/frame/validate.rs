@@ -4,6 +4,7 @@
 mod fragments;
 mod halo;
 mod mirrors;
+mod shapes;
 
 use std::collections::BTreeMap;
 
@@ -118,6 +119,8 @@ struct Progress {
     owned: BTreeMap<u8, Option<usize>>,
     /// Bits that surfaces were marked in when they took light.
     shone: u8,
+    /// Shapes of the playground were drawn.
+    played: bool,
     /// The stencil holds how many fragments fell on each pixel, since it was cleared.
     fragments: bool,
     /// Whose bounds are marked in the stencil, since it was cleared.
@@ -186,6 +189,9 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
     }
     if !(state.color_set && state.depth_set) {
         return Err("it draws before colour and depth were cleared");
+    }
+    if let Some(checked) = shapes::check(plan, draw, state) {
+        return checked;
     }
     let stencil = &draw.state.stencil;
     if (stencil.tests() || stencil.writes()) && !state.stencil_set {

@@ -297,7 +297,7 @@ impl Encode<'_> {
             DrawSet::Surfaces(surfaces) => self.record_surfaces(pass, scene, surfaces, place.view, drawn),
             DrawSet::Swollen(swollen) => self.record_swollen(pass, scene, &swollen.surfaces, place.view, drawn),
             DrawSet::Volumes(parts) => self.record_volumes(pass, plan, scene, (place.number, parts), drawn),
-            DrawSet::Enclosure(_) => self.record_enclosure(pass, place.number, drawn),
+            DrawSet::Enclosure(_) | DrawSet::Triangles(_) => self.record_enclosure(pass, place.number, drawn),
             DrawSet::Labels(_) => self.record_labels(pass, drawn),
             DrawSet::Strokes(_) => self.record_lines(pass, drawn),
             DrawSet::Edges(instances) => self.record_edges(pass, scene, instances, place.view, drawn),

@@ -371,10 +371,13 @@ impl FrameBuffers {
         vertices.clear();
         self.enclosures.clear();
         for (number, (step, draw)) in plan.draws().enumerate() {
-            let DrawSet::Enclosure(solid) = &draw.set else { continue };
             let count = |vertices: &Vec<[f32; 4]>| u32::try_from(vertices.len()).unwrap_or(u32::MAX);
             let first = count(vertices);
-            solid.append_clip(&plan.views[step.view].camera.clip_from_world(), vertices);
+            match &draw.set {
+                DrawSet::Enclosure(solid) => solid.append_clip(&plan.views[step.view].camera.clip_from_world(), vertices),
+                DrawSet::Triangles(corners) => vertices.extend_from_slice(corners),
+                _ => continue,
+            }
             self.enclosures.push((number, first..count(vertices)));
         }
     }

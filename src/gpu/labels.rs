@@ -77,7 +77,7 @@ impl Labels {
         for (label, text) in labels.iter().zip(&texts) {
             let color = match label.kind {
                 LabelKind::Light => OF_LIGHTS,
-                LabelKind::Eye | LabelKind::Caster | LabelKind::Legend => OF_CASTERS,
+                LabelKind::Eye | LabelKind::Caster | LabelKind::Legend | LabelKind::Shape => OF_CASTERS,
             };
             let [x, y, width, height] = label.plate;
             let size = text.rect.size();
@@ -87,6 +87,8 @@ impl Labels {
                 origin[0] = x.round();
             } else {
                 shapes.rectangle([x, y, width, height], PLATE);
+            }
+            if matches!(label.kind, LabelKind::Light | LabelKind::Eye | LabelKind::Caster) {
                 let [ax, ay] = label.anchor.map(f32::round);
                 shapes.rectangle([ax - 2.0, ay - 2.0, 4.0, 4.0], color);
             }

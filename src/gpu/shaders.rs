@@ -38,6 +38,7 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("mirrored.wgsl", include_str!("../../shaders/mirrored.wgsl")),
     ("identity.wgsl", include_str!("../../shaders/identity.wgsl")),
     ("halo.wgsl", include_str!("../../shaders/halo.wgsl")),
+    ("playground.wgsl", include_str!("../../shaders/playground.wgsl")),
     ("output.wgsl", include_str!("../../shaders/output.wgsl")),
 ];
 
@@ -174,6 +175,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::Mirrored, "mirrored.wgsl", "surface_vertex", "mirrored", Vertices::Surface, REFLECTED),
     entry(Program::Identity, "identity.wgsl", "identity_vertex", "identity", Vertices::Surface, SURFACE),
     entry(Program::Halo, "halo.wgsl", "halo_vertex", "halo", Vertices::Swollen, &[Override::Clipped]),
+    entry(Program::Playground, "playground.wgsl", "full_screen_vertex", "playground", Vertices::None, &[]),
 ];
 
 /// The entry of a program.

@@ -31,6 +31,7 @@ mod overflow;
 pub mod own_bits;
 mod parity;
 mod per_polygon;
+pub mod playground;
 pub mod show;
 pub mod surfaces;
 pub mod wide;

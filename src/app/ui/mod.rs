@@ -19,6 +19,7 @@ mod lights;
 mod mirrors;
 mod numbers;
 mod picture;
+mod playground;
 mod scene;
 pub mod style;
 mod technique;
@@ -37,7 +38,7 @@ use super::verify::Verification;
 use crate::frame::{Camera, Capabilities, FramePlan};
 use crate::scene::stock::StockScene;
 use crate::scene::{Pose, Scene};
-use crate::settings::{Failure, SceneChoice, Settings};
+use crate::settings::{Api, Failure, SceneChoice, Settings};
 use crate::techniques::complexity::Tally;
 
 /// What the panel edits.
@@ -170,6 +171,10 @@ pub struct Panel {
     makes_mirrors: bool,
     selected_light: Option<usize>,
     unfold_light: Option<usize>,
+    /// Whose calls the playground shows.
+    api: Api,
+    /// The playground's shape that follows the mouse.
+    dragged_shape: Option<usize>,
     drag: Option<gizmo::Drag>,
     /// Where each light's icon was painted last.
     icons: Vec<(usize, egui::Pos2)>,
@@ -238,6 +243,7 @@ impl Panel {
         style::section(ui, "Frame", true, |ui| numbers::numbers(ui, desk, view));
         style::section(ui, "Technique", true, |ui| technique::techniques(ui, desk));
         style::section(ui, "Show", true, |ui| technique::show(ui, desk, view));
+        style::section(ui, "Stencil playground", false, |ui| playground::playground(ui, self, desk));
         style::section(ui, "Failures", false, |ui| failures::failures(ui, self, desk, actions));
         style::section(ui, "Proof", true, |ui| verify::verify(ui, desk, view, actions));
         style::section(ui, "Lights", true, |ui| lights::lights(ui, self, desk, view));

@@ -3,7 +3,7 @@
 use egui::{PointerButton, Rect, Response, Sense, Ui};
 use glam::DVec2;
 
-use super::{Action, Desk, Panel, View, gizmo, mirrors, numbers};
+use super::{Action, Desk, Panel, View, gizmo, mirrors, numbers, playground};
 use crate::app::control::{self, Mode};
 use crate::app::keys;
 use crate::frame::Camera;
@@ -29,6 +29,10 @@ pub fn picture(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
                 memory.surrender_focus(focused);
             }
         });
+    }
+    if desk.settings.show == Show::Playground {
+        playground::drag(&response, panel, desk, rect);
+        return rect;
     }
     let Some(camera) = super::camera_of(desk.settings, view) else { return rect };
     let held = response.is_pointer_button_down_on();
