@@ -11,6 +11,7 @@
 mod command_line;
 mod complexity;
 mod counting;
+mod csg;
 mod culling;
 mod halo;
 mod input;
@@ -432,6 +433,8 @@ struct PictureArguments {
     mirrors: mirrors::MirrorArguments,
     #[command(flatten)]
     halos: halo::HaloArguments,
+    #[command(flatten)]
+    csg: csg::CsgArguments,
     /// The graphics adapter: part of its name
     #[arg(long, value_name = "SUBSTRING", allow_hyphen_values = true)]
     adapter: Option<String>,
@@ -459,6 +462,7 @@ impl PictureArguments {
                 culling: settings.culling,
                 mirrors: settings.mirrors.of_another_scene(),
                 halos: settings.halos.of_another_scene(),
+                csg: settings.csg.of_another_scene(),
                 adapter: settings.adapter,
                 shaders: settings.shaders,
                 ..Settings::default()
@@ -504,6 +508,7 @@ impl PictureArguments {
         self.playground.apply(&mut settings.playground)?;
         self.mirrors.apply(&mut settings.mirrors)?;
         self.halos.apply(&mut settings.halos);
+        self.csg.apply(&mut settings.csg)?;
         settings.adapter = self.adapter.clone().or(settings.adapter);
         settings.shaders = self.shaders.clone().or(settings.shaders);
         check(&settings)?;

@@ -10,6 +10,7 @@ mod off_mirrors;
 mod reflections;
 mod rounds;
 mod shown;
+mod solids;
 mod views;
 
 use glam::DVec2;
@@ -163,6 +164,7 @@ pub fn plan(
             let rounds::Counted { count, points_mask } = frame.count_shown(settings.light);
             let shows_stencil = settings.show == Show::Stencil;
             frame.clear_all([0.0; 4], count.base);
+            frame.draw_solid();
             frame.extend(surfaces::ambient(&groups, whole));
             if !shows_stencil {
                 frame.clear_color([MID_GREY, MID_GREY, MID_GREY, 1.0]);
@@ -181,6 +183,7 @@ pub fn plan(
         Show::Overflow => {
             let count = frame.count_by(techniques::row(Technique::Wide), settings.light);
             frame.clear_all([0.0; 4], count.base);
+            frame.draw_solid();
             frame.extend(surfaces::ambient(&groups, whole));
             if !count.steps.is_empty() {
                 frame.extend(count.steps);
@@ -193,6 +196,7 @@ pub fn plan(
             frame.plan_casters(settings.light);
             let classes = frame.classes(settings.light);
             frame.clear_all(cases::BACKGROUND, 0);
+            frame.draw_solid();
             frame.extend(cases::steps(scene, &groups, &classes, Class::color, whole));
             frame.extend(cases::glass(frame.known(), frame.view(), whole));
             frame.push(show::copy(whole));
@@ -204,6 +208,7 @@ pub fn plan(
             let (eye, above) = frame.rise();
             let groups = surfaces::opaque_groups(frame.known(), frame.view(), frame.plan.size, Texturing::EachLight);
             frame.clear_all(cases::BACKGROUND, 0);
+            frame.draw_solid();
             frame.extend(cases::steps(scene, &groups, &classes, bounds::color_of, whole));
             if above.cut.is_some() {
                 frame.extend(bounds::cut(&groups, whole));
@@ -228,6 +233,7 @@ pub fn plan(
             }
             let lights: Vec<_> = rounds.iter().flat_map(|round| &round.lights).map(|shining| shining.light).collect();
             frame.start(rounds.first().map_or(0, |round| round.base));
+            frame.draw_solid();
             frame.extend(surfaces::ambient(&groups, whole));
             for round in rounds {
                 frame.start_round(&round);
@@ -292,7 +298,8 @@ impl<'a> Frame<'a> {
                 | Show::Complexity
                 | Show::Playground
         );
-        let each_sample = settings.technique != Technique::Wide || capabilities.wide_four_samples;
+        let reads_samples = settings.technique == Technique::Wide || scene.solid.is_some();
+        let each_sample = !reads_samples || capabilities.wide_four_samples;
         let samples = if exact_values || !capabilities.four_samples || !each_sample { 1 } else { settings.samples };
         let mut notes: Vec<_> =
             capabilities.lacks().iter().map(|lack| format!("no {}: {}", lack.feature, lack.instead)).collect();
@@ -303,7 +310,7 @@ impl<'a> Frame<'a> {
             notes.push(format!("the far plane at {far} m cuts volumes off: what is counted from infinity goes wrong"));
         }
         if !each_sample && settings.samples != 1 {
-            notes.push("this device counts wide with 1 sample a pixel only".into());
+            notes.push("this device counts wide, and puts solids together, with 1 sample a pixel only".into());
         }
         let plan = FramePlan {
             size: settings.size,
@@ -325,6 +332,7 @@ impl<'a> Frame<'a> {
         let (sights, mirrors) = (Vec::new(), Mirrors::default());
         let glowing = scene.glowing(&settings.halos.edits);
         let mut frame = Self { settings, scene, pose, capabilities, outlook, sights, mirrors, glowing, stored: 0, used: 0, plan };
+        solids::note(&mut frame.plan, settings, scene, pose);
         frame.plan_views();
         frame.choose_bits();
         frame
@@ -385,6 +393,7 @@ impl<'a> Frame<'a> {
             && in_floats
             && textured
             && !self.has_halos()
+            && self.scene.solid.is_none()
     }
 
     /// How often surfaces are textured: exact values have no light to be multiplied.

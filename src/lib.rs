@@ -106,6 +106,13 @@
 //! and no far plane. Surfaces and volumes get their clip position from one WGSL function, marked
 //! `@invariant`: the same place has the same depth to the last bit.
 //!
+//! # Solids
+//!
+//! Two solids put together are drawn before a view's other surfaces, as depth alone ([`techniques::csg`]): each layer of
+//! either is looked at in a target of its own, with a stencil of its own ([`frame::stencil`]), and what is the result's
+//! is merged into the scene's depth. Their surfaces then find themselves by that depth, and need not know of it. What
+//! casts the shadow is a mesh of the result: a scene is combined with it before it is planned ([`scene::solid`]).
+//!
 //! # The stencil's bits
 //!
 //! ```text

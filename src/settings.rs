@@ -6,6 +6,7 @@
 pub mod boards;
 mod complexity;
 mod counting;
+mod csg;
 mod culling;
 mod halo;
 mod lighting;
@@ -14,6 +15,7 @@ mod playground;
 
 pub use complexity::Complexity;
 pub use counting::{Counting, MAX_COUNT_BITS, Overflow};
+pub use csg::{Csg, Operation};
 pub use culling::{Culling, LightBounds};
 pub use halo::{Halos, MAX_HALO_WIDTH};
 pub use lighting::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
@@ -81,6 +83,8 @@ pub struct Settings {
     pub mirrors: Mirrors,
     /// What glows.
     pub halos: Halos,
+    /// Two solids put together.
+    pub csg: Csg,
     /// Part of the name of the adapter to use.
     pub adapter: Option<String>,
     /// Shaders are read from here instead of the program, and again when they change.
@@ -113,6 +117,7 @@ impl Default for Settings {
             complexity: Complexity::default(),
             mirrors: Mirrors::default(),
             halos: Halos::default(),
+            csg: Csg::default(),
             adapter: None,
             shaders: None,
         }

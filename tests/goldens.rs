@@ -13,7 +13,7 @@ use common::Stage;
 use glam::DVec3;
 use image::RgbaImage;
 use obscura::scene::stock;
-use obscura::settings::{LightEdit, MirrorLight, MirrorMode, Mirrors, Settings, Show, Technique};
+use obscura::settings::{LightEdit, MirrorLight, MirrorMode, Mirrors, Operation, Settings, Show, Technique};
 
 const SIZE: [u32; 2] = [240, 135];
 
@@ -119,6 +119,22 @@ fn every_show_looks_as_it_did() {
     faults.extend(compare("show-playground-numbers", &stage.shoot(&settings, &scene).image).err());
     let settings = Settings { samples: 4, size: SIZE, time: 1.0, ..Settings::default() };
     faults.extend(compare("cubes-4-samples", &stage.shoot(&settings, &scene).image).err());
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Kilgard's figure 19, and halos about something else.
+#[test]
+fn every_operation_on_solids_looks_as_it_did() {
+    let mut stage = Stage::new();
+    let mut faults = Vec::new();
+    let scene = stock::build("csg").unwrap().unwrap();
+    for operation in Operation::ALL.into_iter().filter(|operation| *operation != Operation::Off) {
+        let mut settings = Settings { size: SIZE, time: 1.0, ..Settings::default() };
+        settings.csg.operation = Some(operation);
+        let scene = scene.combined(scene.combination_at(&settings).unwrap());
+        stage.set_scene(&scene);
+        faults.extend(compare(&format!("csg-{}", operation.name()), &stage.shoot(&settings, &scene).image).err());
+    }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 

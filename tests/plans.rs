@@ -8,14 +8,14 @@ mod common;
 use std::path::PathBuf;
 
 use common::{Build, cube, seen_from, square};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use obscura::director::{StageError, stage};
 use obscura::frame::state::{Cull, Depth, NearPlane};
 use obscura::frame::stencil::{StencilOp, StencilState};
 use obscura::frame::validate::validate;
 use obscura::frame::{Action, Capabilities, Draw, DrawSet, FramePlan, Method, Program};
-use obscura::scene::{AlphaMode, LightKind, Material, Scene, stock};
-use obscura::settings::{AreaMode, CameraChoice, LightEdit, MirrorLight, Settings, Show, Technique};
+use obscura::scene::{AlphaMode, LightKind, Material, Scene, Transform, stock};
+use obscura::settings::{AreaMode, CameraChoice, Csg, LightEdit, MirrorLight, Operation, Settings, Show, Technique};
 
 /// Two lights, one with a range; a solid, a mirrored solid, a sheet, a masked and a blended one.
 fn varied() -> Scene {
@@ -44,6 +44,18 @@ fn varied() -> Scene {
 
 fn plan(scene: &Scene, settings: &Settings) -> FramePlan {
     stage(settings, scene, &Capabilities::complete()).unwrap().1
+}
+
+/// Two of the varied scene's cubes, one without the other: its depth comes before all surfaces.
+#[test]
+fn solids_come_first() {
+    let mut settings = Settings { size: [320, 180], ..Settings::default() };
+    let mut scene = varied();
+    scene.nodes[2].local =
+        Transform::Trs { translation: DVec3::new(-1.4, 2.1, 0.3), rotation: DQuat::IDENTITY, scale: DVec3::ONE };
+    settings.csg = Csg { operation: Some(Operation::AMinusB), a: Some(1), b: Some(2) };
+    let scene = scene.combined(scene.combination_at(&settings).unwrap());
+    assert_text("csg", &plan(&scene, &settings));
 }
 
 /// What is seen of the varied scene where two of its objects glow.

@@ -17,8 +17,8 @@ use obscura::frame::{Camera, Capabilities, FramePlan};
 use obscura::scene::stock::StockScene;
 use obscura::scene::{self, Light, LightKind, Node, Pose, PosedLight, Scene};
 use obscura::settings::{
-    CameraChoice, Complexity, Failure, Halos, LastBounce, LightEdit, MirrorMode, MirrorPlace, Mirrors, SceneChoice, Settings,
-    Show, Technique,
+    CameraChoice, Complexity, Csg, Failure, Halos, LastBounce, LightEdit, MirrorMode, MirrorPlace, Mirrors, Operation,
+    SceneChoice, Settings, Show, Technique,
 };
 use obscura::techniques::TABLE;
 use obscura::techniques::cases::{self, Class};
@@ -260,6 +260,30 @@ fn mirrors_are_chosen_and_told() {
         assert_eq!(mirrors(&harness), default, "{}", mirror.name);
     }
     assert_eq!(harness.state().actions, []);
+}
+
+#[test]
+fn solids_are_put_together_by_choice() {
+    let mut harness = open(reflecting("csg"));
+    harness.get_by_label("Solids").click();
+    harness.run_steps(3);
+    let csg = |harness: &Harness<'_, Bench>| settings(harness).csg;
+    for (words, operation) in [
+        ("A or B", Operation::Union),
+        ("A and B", Operation::Intersection),
+        ("B minus A", Operation::BMinusA),
+        ("Apart", Operation::Off),
+    ] {
+        click(&mut harness, words);
+        assert_eq!(csg(&harness), Csg { operation: Some(operation), ..Csg::default() });
+    }
+    click(&mut harness, "A minus B");
+    assert_eq!(csg(&harness), Csg::default(), "what the scene means need not be said");
+    let gear = harness.state().scene.nodes.iter().position(|node| node.name == "gear").unwrap();
+    harness.get_by_role_and_label(Role::ComboBox, "A").click();
+    harness.run_steps(3);
+    click(&mut harness, &format!("gear ({gear})"));
+    assert_eq!(csg(&harness), Csg { a: Some(gear), ..Csg::default() });
 }
 
 #[test]

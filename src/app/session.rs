@@ -21,6 +21,8 @@ const GOOD_NEWS: Duration = Duration::from_secs(8);
 /// The scene that is drawn.
 pub(super) struct Loaded {
     pub scene: Arc<Scene>,
+    /// As it was opened: no solids put together.
+    opened: Arc<Scene>,
     doctor: String,
     floor: bool,
 }
@@ -210,7 +212,8 @@ impl Session {
                 }
                 tracing::info!("opened {}", opening.name);
                 let doctor = doctor::report(&scene).to_string();
-                self.loaded = Some(Loaded { doctor, scene: Arc::new(scene), floor: opening.floor });
+                let scene = Arc::new(scene);
+                self.loaded = Some(Loaded { doctor, opened: scene.clone(), scene, floor: opening.floor });
                 self.verification = Verification::default();
                 self.drawn = None;
                 self.drawn_from = None;
@@ -230,6 +233,22 @@ impl Session {
                 self.loaded.is_none() && choice != SceneChoice::default()
             }
         }
+    }
+
+    /// Puts the scene's two solids together, or takes them apart, where settings or time ask for it: `upload` brings what
+    /// comes of it to the device.
+    pub fn put_together(&mut self, upload: impl FnOnce(&Scene) -> Result<(), String>) -> Result<(), String> {
+        let Some(loaded) = &mut self.loaded else { return Ok(()) };
+        let wanted = loaded.opened.combination_at(&self.settings);
+        let there = loaded.scene.solid.as_ref().map(|solid| &solid.of);
+        if wanted.is_none() && there.is_none() || wanted.as_ref().zip(there).is_some_and(|(wanted, there)| wanted.is_like(there))
+        {
+            return Ok(());
+        }
+        let scene = wanted.map_or_else(|| loaded.opened.clone(), |wanted| Arc::new(loaded.opened.combined(wanted)));
+        upload(&scene)?;
+        loaded.scene = scene;
+        Ok(())
     }
 
     /// Moves the scene's time on.

@@ -262,11 +262,14 @@ impl Shell {
             return;
         }
         let Some(screen) = self.live.as_mut().and_then(|live| live.screen.as_mut()) else { return };
-        let Some(loaded) = &session.loaded else { return };
         let begun = Instant::now();
         let frame = session.frame();
-        let staged = stage_frame(&session.settings, &loaded.scene, screen.context.capabilities(), frame)
-            .map_err(|error| error.to_string());
+        let together = session.put_together(|scene| screen.set_scene(scene).map_err(|error| error.to_string()));
+        let Some(loaded) = &session.loaded else { return };
+        let staged = together.and_then(|()| {
+            let staged = stage_frame(&session.settings, &loaded.scene, screen.context.capabilities(), frame);
+            staged.map_err(|error| error.to_string())
+        });
         session.drawn_from = Some(session.settings.clone());
         session.next_frame = None;
         let result = staged.and_then(|(pose, plan)| {

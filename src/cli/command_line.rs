@@ -3,8 +3,9 @@
 use std::borrow::Cow;
 
 use super::{
-    complexity as complexity_options, counting as counting_options, culling as culling_options, halo as halo_options, light_edit,
-    lighting as lighting_options, mirrors as mirror_options, needs_dot, playground as playground_options,
+    complexity as complexity_options, counting as counting_options, csg as csg_options, culling as culling_options,
+    halo as halo_options, light_edit, lighting as lighting_options, mirrors as mirror_options, needs_dot,
+    playground as playground_options,
 };
 use crate::scene::AnimationChoice;
 use crate::settings::{CameraChoice, SceneChoice, Settings};
@@ -44,6 +45,7 @@ pub fn render_command(settings: &Settings) -> String {
         mirrors,
         playground,
         halos,
+        csg,
     } = settings;
     let default = Settings::default();
     let mut line = Line::default();
@@ -117,6 +119,7 @@ pub fn render_command(settings: &Settings) -> String {
     playground_options::write(playground, &mut line);
     mirror_options::write(mirrors, &mut line);
     halo_options::write(halos, &mut line);
+    csg_options::write(csg, &mut line);
     if let Some(adapter) = adapter {
         line.option("--adapter", adapter);
     }

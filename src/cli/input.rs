@@ -3,7 +3,7 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::{counting, halo, lighting, mirrors, playground};
+use super::{counting, csg, halo, lighting, mirrors, playground};
 use crate::scene::{AnimationChoice, LightKind, Scene};
 use crate::settings::{CameraChoice, LightEdit, MAX_SIZE, Settings, SlideChoice};
 
@@ -120,6 +120,19 @@ pub enum InputError {
         index: usize,
         /// How many there are.
         count: usize,
+    },
+    /// Solids are to be put together, but which?
+    #[error("nothing says which solids to put together here: --csg-a NODE and --csg-b NODE do")]
+    NoOperands,
+    /// Something that can be no operand.
+    #[error("node {node} cannot be {letter}: {why}")]
+    Operand {
+        /// A or B.
+        letter: char,
+        /// The node, from 0.
+        node: usize,
+        /// One sentence.
+        why: String,
     },
     /// The scene has no such surface.
     #[error("node {node} of this scene shows no primitive {primitive}")]
@@ -251,5 +264,6 @@ pub fn check_against(settings: &Settings, scene: &Scene) -> Result<(), InputErro
         return Err(InputError::Index { kind: "animation", index, count: scene.animations.len() });
     }
     halo::check_against(&settings.halos, scene)?;
+    csg::check_against(&settings.csg, scene)?;
     mirrors::check_against(&settings.mirrors, scene)
 }

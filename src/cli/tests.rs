@@ -10,9 +10,9 @@ use proptest::prelude::*;
 use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
 use crate::settings::{
-    Accumulation, AreaMode, Board, Complexity, Counting, Culling, Halos, LEAST_TEXTURE, LastBounce, LightBounds, Lighting,
+    Accumulation, AreaMode, Board, Complexity, Counting, Csg, Culling, Halos, LEAST_TEXTURE, LastBounce, LightBounds, Lighting,
     MAX_AREA_SAMPLES, MAX_BOUNCES, MAX_COUNT_BITS, MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE, MirrorLight, MirrorMode,
-    MirrorPlace, Mirrors, Overflow, Playground, SlideChoice, Texturing, boards,
+    MirrorPlace, Mirrors, Operation, Overflow, Playground, SlideChoice, Texturing, boards,
 };
 
 fn command(line: &str) -> Result<Command, InputError> {
@@ -52,7 +52,7 @@ fn every_argument_reaches_its_setting() {
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --area-mode bits --light-sample 3 --accumulate 256 \
          --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on \
          --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --mirror-texture 77 --mirror-light virtual --least-pixels 25 --mirror 12=on --mirror 3:1=off \
-         --halo 4 --halo 5=off --halo-color 0.5,0,1 --halo-width 2.5 \
+         --halo 4 --halo 5=off --halo-color 0.5,0,1 --halo-width 2.5 --csg a-minus-b --csg-a 6 --csg-b 9 \
          --light-edit 1:on=true --adapter llvm --shaders wgsl",
     );
     let edit = LightEdit {
@@ -110,6 +110,7 @@ fn every_argument_reaches_its_setting() {
             ]),
         },
         halos: Halos { edits: BTreeMap::from([(4, true), (5, false)]), color: Vec3::new(0.5, 0.0, 1.0), width: 2.5 },
+        csg: Csg { operation: Some(Operation::AMinusB), a: Some(6), b: Some(9) },
         shaders: Some("wgsl".into()),
     };
     assert_eq!(got, expected);
@@ -415,11 +416,17 @@ fn any_settings() -> impl Strategy<Value = Settings> {
     let halos =
         (prop::collection::btree_map(any::<usize>(), any::<bool>(), 0..4), [part(), part(), part()], 0.0..=MAX_HALO_WIDTH)
             .prop_map(|(edits, color, width)| Halos { edits, color: color.into(), width });
+    let operation = prop::option::of(prop::sample::select(&Operation::ALL[..]));
+    let csg = (operation, prop::option::of(any::<usize>()), prop::option::of(any::<usize>())).prop_map(|(operation, a, b)| Csg {
+        operation,
+        a,
+        b,
+    });
     let rest = (
         prop::collection::btree_map(any::<usize>(), any_edit(), 0..4),
         lighting,
         (1..=MAX_COUNT_BITS, prop::sample::select(&Overflow::ALL[..])).prop_map(|(bits, overflow)| Counting { bits, overflow }),
-        (culling, mirrors, halos),
+        (culling, mirrors, halos, csg),
         prop::option::of(word()),
         prop::option::of(word().prop_filter("a folder", |path| !path.is_empty()).prop_map(PathBuf::from)),
         (
@@ -435,7 +442,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         |(
             (scene, floor, technique, show, light, size, samples),
             (camera, fov, far, time, animation, smooth_terminator, exposure),
-            (lights, lighting, counting, (culling, mirrors, halos), adapter, shaders, (failure, complexity, playground)),
+            (lights, lighting, counting, (culling, mirrors, halos, csg), adapter, shaders, (failure, complexity, playground)),
         )| Settings {
             scene,
             floor,
@@ -461,6 +468,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             adapter,
             mirrors,
             halos,
+            csg,
             shaders,
         },
     )

@@ -105,6 +105,7 @@ impl Frame<'_> {
             let grey = surfaces::finished(&stage.grey, None, whole);
             self.extend_grey(&stage.grey, grey);
         } else {
+            self.draw_solid();
             self.extend(surfaces::ambient(&stage.plain, whole));
             let grey = surfaces::ambient(&stage.grey, whole);
             self.extend_grey(&stage.grey, grey);
@@ -252,6 +253,7 @@ impl Frame<'_> {
     fn draw_identities(&mut self) {
         let whole = self.whole();
         let stage = self.stage(Texturing::EachLight);
+        self.draw_solid();
         self.extend(surfaces::identities(&stage.plain, whole));
         self.extend(surfaces::identities(&stage.grey, whole));
         let open = stage.open.iter().map(|(group, _)| surfaces::lay(group, whole)).collect();
@@ -269,6 +271,7 @@ impl Frame<'_> {
             color: [r, g, b, 1.0],
             inside: false,
         };
+        self.draw_solid();
         self.extend(surfaces::tinted(&stage.plain, &tint, |_| true, whole));
         self.extend(surfaces::tinted(&stage.grey, &Tint { color: mirrors::NO_VIEW, ..tint }, |_| true, whole));
         let open = stage.open.iter().map(|(group, _)| surfaces::lay(group, whole)).collect();
@@ -303,6 +306,7 @@ impl Frame<'_> {
             let [r, g, b] = mirrors::path_color(self.view().path());
             let why = "Every view's room in its colour, where it seems to stand.";
             let tint = Tint { label: "room", why, color: [r, g, b, 1.0], inside: false };
+            self.draw_solid();
             self.extend(surfaces::tinted(&groups, &tint, |_| true, self.whole()));
             if above.cut.is_some() {
                 self.extend(bounds::cut(&groups, self.whole()));
@@ -335,10 +339,11 @@ impl Frame<'_> {
         let stage = self.stage(Texturing::EachLight);
         let all: Vec<&SurfaceGroup> =
             stage.plain.iter().chain(&stage.grey).chain(stage.open.iter().map(|(group, _)| group)).collect();
+        self.draw_solid();
         if stencil {
             self.extend(surfaces::ambient(all.iter().copied(), whole));
         } else {
-            self.extend(all.iter().map(|group| surfaces::lay(group, whole)).collect());
+            self.extend(all.iter().filter(|group| !group.is_laid()).map(|group| surfaces::lay(group, whole)).collect());
         }
         self.extend(count.steps);
         if !stencil && let Some(scissor) = self.light_rect(light) {

@@ -22,9 +22,12 @@
 //! in batches ([`BitBudget::batched`]): after each, one full-screen step ([`StencilState::collapse`])
 //! turns every count that is not zero into the verdict bit and starts the field anew.
 
+mod solid;
+
 use serde::{Deserialize, Serialize};
 
 use super::state::Compare;
+pub use solid::{INSIDE, most_layers};
 
 /// Which bits belong to whom in one frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]

@@ -131,6 +131,8 @@ pub struct Look {
     pub clipped: bool,
     /// How the surface reflects.
     pub mirror: MirrorLook,
+    /// Triangles are seen from behind alone: the surface is the inside of another solid.
+    pub inside: bool,
 }
 
 /// How a surface reflects, without its numbers.
@@ -186,6 +188,8 @@ pub enum Target {
     Direct,
     /// One number a sample that counts beyond the stencil, under the scene's depth.
     Counts,
+    /// Depth and stencil of one layer of two solids put together ([`crate::techniques::csg`]), apart from the scene's.
+    Solid,
 }
 
 /// Which shaders a step runs; [`crate::gpu::shaders`] says where each is written.
@@ -270,6 +274,10 @@ pub enum Program {
     Halo,
     /// Full screen: the playground's stencil as colours and numbers.
     Playground,
+    /// Full screen, depth alone: a layer of [`Target::Solid`] on the side of the other operand that the constant's red says.
+    SolidMerge,
+    /// The same, for every sample of several.
+    SolidMergeEach,
 }
 
 /// What a step draws, by number.
@@ -280,6 +288,8 @@ pub enum DrawSet {
     FullScreen,
     /// Mesh primitives.
     Surfaces(Vec<Surface>),
+    /// Some triangles of mesh primitives.
+    Runs(Vec<Run>),
     /// Mesh primitives, larger than they are.
     Swollen(Swollen),
     /// Parts of shadow volumes.
@@ -294,6 +304,15 @@ pub enum DrawSet {
     Labels(Vec<Label>),
     /// Lines and areas over the finished picture.
     Strokes(Vec<Stroke>),
+}
+
+/// Some triangles of a mesh primitive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Run {
+    /// Of which.
+    pub surface: Surface,
+    /// From the first of these numbers to before the second.
+    pub triangles: [u32; 2],
 }
 
 /// Mesh primitives whose vertices are moved outwards on screen ([`crate::geometry::outward`]).

@@ -6,7 +6,7 @@ use std::fmt::{Display, Formatter, Result};
 use super::plan::FramePlan;
 use super::state::DepthBias;
 use super::stencil::BitBudget;
-use super::step::{Action, Draw, DrawSet, Part};
+use super::step::{Action, Draw, DrawSet, Part, Run};
 use crate::geometry::volume::Outline;
 use crate::settings::Accumulation;
 
@@ -126,6 +126,12 @@ fn contents(set: &DrawSet) -> String {
         DrawSet::Surfaces(surfaces) => {
             let list: Vec<_> = surfaces.iter().map(|surface| format!("{}.{}", surface.instance, surface.primitive)).collect();
             format!("surfaces {}", list.join(" "))
+        }
+        DrawSet::Runs(runs) => {
+            let run = |Run { surface, triangles: [from, to] }: &Run| {
+                format!("{}.{} ({from} to {to})", surface.instance, surface.primitive)
+            };
+            format!("triangles of {}", runs.iter().map(run).collect::<Vec<_>>().join(" "))
         }
         DrawSet::Swollen(swollen) => {
             let list: Vec<_> =

@@ -5,6 +5,7 @@ mod fragments;
 mod halo;
 mod mirrors;
 mod shapes;
+mod solid;
 
 use std::collections::BTreeMap;
 
@@ -129,6 +130,8 @@ struct Progress {
     counted: Option<usize>,
     /// What has a halo is tagged, since the stencil was cleared.
     tagged: bool,
+    /// How far the layer in a solid's own target is.
+    layer: solid::Layer,
     counts_set: bool,
     /// Whose volumes are counted beyond the stencil, since the counts were cleared.
     wide: Option<usize>,
@@ -143,6 +146,7 @@ impl Progress {
             owned: BTreeMap::new(),
             shone: 0,
             tagged: false,
+            layer: solid::Layer::None,
             bounded: None,
             counted: None,
             wide: None,
@@ -157,6 +161,9 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
     let inside = |start: u32, length: u32, size: u32| start.checked_add(length).is_some_and(|end| end <= size);
     if width == 0 || height == 0 || !inside(x, width, plan.size[0]) || !inside(y, height, plan.size[1]) {
         return Err("its scissor is empty or leaves the picture");
+    }
+    if let Some(checked) = solid::check(draw, plan.samples, state) {
+        return checked;
     }
     match draw.target {
         Target::Mean | Target::Output => {
@@ -185,7 +192,7 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
         Target::Direct => state.direct = true,
         Target::Scene if state.output_begun || state.direct => return Err("it draws the scene after the picture has begun"),
         Target::Counts if state.output_begun => return Err("it draws the scene after the picture has begun"),
-        Target::Scene | Target::Counts => {}
+        Target::Scene | Target::Counts | Target::Solid => {}
     }
     if !(state.color_set && state.depth_set) {
         return Err("it draws before colour and depth were cleared");

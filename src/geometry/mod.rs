@@ -9,6 +9,7 @@ pub mod eye_count;
 pub mod flatten;
 pub mod flaw;
 pub mod frustum;
+pub mod layers;
 pub mod near_rectangle;
 pub mod outward;
 pub mod overlap;

@@ -4,13 +4,13 @@ use super::context::Context;
 use super::frame_buffers::{FrameBuffers, STRIDE, range_of};
 use super::labels::Labels;
 use super::lines::Lines;
-use super::merged::Run;
+use super::merged;
 use super::pipelines::{Key, Pipelines, Reads, reads};
 use super::scene_buffers::SceneBuffers;
 use super::shaders::{BANDS, Vertices, entry_of};
 use super::targets::{Mean, Targets};
 use super::timing::Timing;
-use crate::frame::{Action, Clear, Draw, DrawSet, FramePlan, Program, Surface, Target, View, VolumePart};
+use crate::frame::{Action, Clear, Draw, DrawSet, FramePlan, Program, Run, Surface, Target, View, VolumePart};
 use crate::scene::Scene;
 
 /// What a frame is drawn with and into.
@@ -132,7 +132,7 @@ fn passes(plan: &FramePlan) -> Vec<Pass<'_>> {
                 // colour.
                 let elsewhere = match draw.target {
                     Target::Scene | Target::Direct => false,
-                    Target::Mean | Target::Output => true,
+                    Target::Mean | Target::Output | Target::Solid => true,
                     Target::Counts => pending.is_some_and(|clear| clear.color.is_some()),
                 };
                 if let Some(mut clear) = pending.take_if(|_| elsewhere) {
@@ -233,6 +233,20 @@ impl Encode<'_> {
                 timestamp_writes,
                 ..Default::default()
             }),
+            Target::Solid => {
+                // The plan draws what it begins with; what it does not draw it does not read.
+                let view = self.targets.solid.as_ref().map_or(&self.targets.depth_stencil, |solid| &solid.depth_stencil);
+                encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some("solid"),
+                    depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                        view,
+                        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Load, store }),
+                        stencil_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Load, store }),
+                    }),
+                    timestamp_writes,
+                    ..Default::default()
+                })
+            }
             Target::Mean | Target::Output => encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(if pass.target == Target::Mean { "mean" } else { "picture" }),
                 color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -283,6 +297,9 @@ impl Encode<'_> {
         }
         match &draw.set {
             DrawSet::FullScreen => {
+                if let (Reads::Solid | Reads::SolidEach, Some(solid)) = (reads(draw.program, draw.target), &self.targets.solid) {
+                    pass.set_bind_group(1, &solid.read, &[]);
+                }
                 match (reads(draw.program, draw.target), &self.targets.counts, self.mean(plan)) {
                     (Reads::Targets, _, None) => pass.set_bind_group(1, &self.targets.read, &[]),
                     (Reads::Targets, _, Some(mean)) if draw.target == Target::Mean => pass.set_bind_group(1, &mean.gather, &[]),
@@ -295,6 +312,7 @@ impl Encode<'_> {
                 drawn.draws += 1;
             }
             DrawSet::Surfaces(surfaces) => self.record_surfaces(pass, scene, surfaces, place.view, drawn),
+            DrawSet::Runs(runs) => self.record_runs(pass, scene, runs, place.view, drawn),
             DrawSet::Swollen(swollen) => self.record_swollen(pass, scene, &swollen.surfaces, place.view, drawn),
             DrawSet::Volumes(parts) => self.record_volumes(pass, plan, scene, (place.number, parts), drawn),
             DrawSet::Enclosure(_) | DrawSet::Triangles(_) => self.record_enclosure(pass, place.number, drawn),
@@ -343,6 +361,23 @@ impl Encode<'_> {
             pass.draw_indexed(primitive.first_index..primitive.first_index + primitive.index_count, 0, object..object + count);
             drawn.draws += 1;
             drawn.triangles += u64::from(primitive.index_count / 3) * u64::from(count);
+        }
+    }
+
+    fn record_runs(&self, pass: &mut wgpu::RenderPass<'_>, scene: &Scene, runs: &[Run], view: usize, drawn: &mut Drawn) {
+        let instances: Vec<_> = scene.instances().collect();
+        for Run { surface, triangles: [from, to] } in runs {
+            let (_, node, mesh) = instances[surface.instance];
+            let (primitive, mesh_index) = (mesh.primitives[surface.primitive], node.mesh.unwrap_or(0));
+            let vertices = self.buffers.vertices(surface.instance, mesh_index);
+            pass.set_vertex_buffer(0, vertices.positions.slice(..));
+            pass.set_vertex_buffer(1, vertices.attributes.slice(..));
+            pass.set_index_buffer(self.buffers.meshes[mesh_index].indices.slice(..), wgpu::IndexFormat::Uint32);
+            pass.set_bind_group(1, &self.buffers.materials[primitive.material], &[]);
+            let object = u32::try_from(view * instances.len() + surface.instance).unwrap_or(0);
+            pass.draw_indexed(primitive.first_index + from * 3..primitive.first_index + to * 3, 0, object..object + 1);
+            drawn.draws += 1;
+            drawn.triangles += u64::from(to - from);
         }
     }
 
@@ -422,7 +457,7 @@ impl Encode<'_> {
         }
     }
 
-    fn record_merged(&self, pass: &mut wgpu::RenderPass<'_>, run: &Run, drawn: &mut Drawn) {
+    fn record_merged(&self, pass: &mut wgpu::RenderPass<'_>, run: &merged::Run, drawn: &mut Drawn) {
         let merged = &self.frame.merged;
         let (Some(vertices), Some(indices)) = (merged.vertices.buffer(), merged.indices.buffer()) else { return };
         if run.indices.is_empty() {

@@ -144,6 +144,9 @@ impl Renderer {
         if plan.draws().any(|(_, draw)| draw.target == Target::Counts) {
             targets.with_counts(context, &self.pipelines.counts_layouts);
         }
+        if plan.draws().any(|(_, draw)| draw.target == Target::Solid) {
+            targets.with_solid(context, &self.pipelines.solid_layouts);
+        }
         let kept: Vec<_> = plan.views.iter().filter(|view| view.texture.is_some()).map(|view| view.picture).collect();
         targets.with_reflections(context, &self.pipelines.reflection_layout, &kept);
         for (instance, (node, _, mesh)) in scene.instances().enumerate() {

@@ -40,6 +40,10 @@ pub enum Reads {
     Counts,
     /// The counts, several samples a pixel.
     CountsEach,
+    /// A solid's own depth and stencil, one sample a pixel.
+    Solid,
+    /// The same, several samples a pixel.
+    SolidEach,
 }
 
 /// What a program that is no surface's reads, drawing into `target`.
@@ -48,6 +52,8 @@ pub fn reads(program: Program, target: Target) -> Reads {
     match program {
         Program::WideVerdict | Program::WideBit | Program::WideOverflow => Reads::Counts,
         Program::WideVerdictEach => Reads::CountsEach,
+        Program::SolidMerge => Reads::Solid,
+        Program::SolidMergeEach => Reads::SolidEach,
         _ if matches!(target, Target::Mean | Target::Output) => Reads::Targets,
         _ => Reads::Nothing,
     }
@@ -65,6 +71,8 @@ pub struct Pipelines {
     pub labels_layout: wgpu::BindGroupLayout,
     /// Group 1 of programs that read the counts, of one sample and of several.
     pub counts_layouts: [wgpu::BindGroupLayout; 2],
+    /// Group 1 of what reads a solid's own target, of one sample and of several.
+    pub solid_layouts: [wgpu::BindGroupLayout; 2],
     /// Group 2 of mirrors with a texture: the texture, its sampler.
     pub reflection_layout: wgpu::BindGroupLayout,
     bare: wgpu::PipelineLayout,
@@ -73,6 +81,7 @@ pub struct Pipelines {
     picture: wgpu::PipelineLayout,
     labels: wgpu::PipelineLayout,
     counts: [wgpu::PipelineLayout; 2],
+    solid: [wgpu::PipelineLayout; 2],
     modules: HashMap<&'static str, wgpu::ShaderModule>,
     made: HashMap<Key, wgpu::RenderPipeline>,
 }
@@ -169,6 +178,15 @@ impl Pipelines {
             }
             layout("counts", &[entry])
         });
+        let solid_layouts = [false, true].map(|each| {
+            let mut entries = [sampled(0, wgpu::TextureSampleType::Depth), sampled(1, wgpu::TextureSampleType::Uint)];
+            for entry in &mut entries {
+                if let wgpu::BindingType::Texture { multisampled, .. } = &mut entry.ty {
+                    *multisampled = each;
+                }
+            }
+            layout("solid", &entries)
+        });
         let reflection_layout = layout(
             "reflection",
             &[
@@ -200,6 +218,8 @@ impl Pipelines {
             labels_layout,
             counts: counts_layouts.each_ref().map(|counts| pipeline_layout("counts", &[&frame_layout, counts])),
             counts_layouts,
+            solid: solid_layouts.each_ref().map(|solid| pipeline_layout("solid", &[&frame_layout, solid])),
+            solid_layouts,
             frame_layout,
             material_layout,
             targets_layout,
@@ -264,10 +284,13 @@ impl Pipelines {
             (_, Reads::Targets) => &self.picture,
             (_, Reads::Counts) => &self.counts[0],
             (_, Reads::CountsEach) => &self.counts[1],
+            (_, Reads::Solid) => &self.solid[0],
+            (_, Reads::SolidEach) => &self.solid[1],
             (_, Reads::Nothing) => &self.bare,
         };
         let format = match key.target {
-            Target::Scene => color_format(key.accumulation),
+            // A solid's own target has no colour: see below.
+            Target::Scene | Target::Solid => color_format(key.accumulation),
             Target::Mean => MEAN_FORMAT,
             Target::Direct | Target::Output => key.output,
             Target::Counts => context.counts_format(),
@@ -280,7 +303,8 @@ impl Pipelines {
         let constants = constants(entry.overrides, key);
         let compilation_options =
             || wgpu::PipelineCompilationOptions { constants: &constants, ..wgpu::PipelineCompilationOptions::default() };
-        let in_scene = matches!(key.target, Target::Scene | Target::Direct | Target::Counts);
+        let targets: &[_] = if key.target == Target::Solid { &[] } else { &targets };
+        let in_scene = matches!(key.target, Target::Scene | Target::Direct | Target::Counts | Target::Solid);
         context.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(entry.fragment),
             layout: Some(layout),
@@ -314,7 +338,7 @@ impl Pipelines {
                 module,
                 entry_point: Some(entry.fragment),
                 compilation_options: compilation_options(),
-                targets: &targets,
+                targets,
             }),
             multiview_mask: None,
             cache: None,
@@ -327,7 +351,7 @@ fn constants(overrides: &[Override], Key { look, state, .. }: &Key) -> Vec<(&'st
     let value = |it: Override| match it {
         Override::Textured => ("TEXTURED", f64::from(u8::from(look.textured))),
         Override::Glossy => ("GLOSSY", f64::from(u8::from(look.glossy))),
-        Override::BothSides => ("BOTH_SIDES", f64::from(u8::from(state.cull == Cull::None))),
+        Override::BothSides => ("BOTH_SIDES", f64::from(u8::from(state.cull == Cull::None || look.inside))),
         Override::LightKind => {
             let kind = match look.light {
                 LightShape::Point => 0.0,

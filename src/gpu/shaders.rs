@@ -39,6 +39,7 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("identity.wgsl", include_str!("../../shaders/identity.wgsl")),
     ("halo.wgsl", include_str!("../../shaders/halo.wgsl")),
     ("playground.wgsl", include_str!("../../shaders/playground.wgsl")),
+    ("solid.wgsl", include_str!("../../shaders/solid.wgsl")),
     ("output.wgsl", include_str!("../../shaders/output.wgsl")),
 ];
 
@@ -176,6 +177,8 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::Identity, "identity.wgsl", "identity_vertex", "identity", Vertices::Surface, SURFACE),
     entry(Program::Halo, "halo.wgsl", "halo_vertex", "halo", Vertices::Swollen, &[Override::Clipped]),
     entry(Program::Playground, "playground.wgsl", "full_screen_vertex", "playground", Vertices::None, &[]),
+    entry(Program::SolidMerge, "solid.wgsl", "full_screen_vertex", "solid_merge", Vertices::None, &[]),
+    entry(Program::SolidMergeEach, "solid.wgsl", "full_screen_vertex", "solid_merge_each", Vertices::None, &[]),
 ];
 
 /// The entry of a program.

@@ -57,6 +57,8 @@ pub struct Targets {
     pub means: Option<[Mean; 2]>,
     /// Made by [`Self::with_counts`] for the first plan that counts beyond the stencil.
     pub counts: Option<Counts>,
+    /// Made by [`Self::with_solid`] for the first plan that puts solids together.
+    pub solid: Option<SolidTarget>,
     /// Made by [`Self::with_reflections`]: one for each view that goes into a texture.
     pub reflections: Vec<Reflection>,
 }
@@ -81,6 +83,14 @@ pub struct Counts {
     pub read: wgpu::BindGroup,
 }
 
+/// Depth and stencil of one layer of two solids put together.
+pub struct SolidTarget {
+    /// What is drawn to.
+    pub depth_stencil: wgpu::TextureView,
+    /// What layers are merged by.
+    pub read: wgpu::BindGroup,
+}
+
 /// Bytes that targets may take; llvmpipe overcommits memory until it aborts.
 const BUDGET: u64 = 4 << 30;
 
@@ -92,8 +102,8 @@ impl Targets {
     pub fn new(context: &Context, layout: &wgpu::BindGroupLayout, shape: Shape) -> Result<Self, GpuError> {
         let Shape { size, samples, accumulation, gathers } = shape;
         let pixels = u64::from(size[0]) * u64::from(size[1]);
-        // Colour, depth with stencil, counts should they be needed, and means.
-        let bytes = pixels * (u64::from(samples) * (8 + 8 + 4) + 8 + if gathers { 32 } else { 0 });
+        // Colour, depth with stencil, counts and a solid's own depth should they be needed, and means.
+        let bytes = pixels * (u64::from(samples) * (8 + 8 + 4 + 8) + 8 + if gathers { 32 } else { 0 });
         if bytes > BUDGET {
             return Err(GpuError::TooLarge(format!(
                 "{} x {} pixels with {samples} samples need {} MiB of {} MiB",
@@ -163,6 +173,7 @@ impl Targets {
             read,
             means,
             counts: None,
+            solid: None,
         })
     }
 
@@ -193,6 +204,28 @@ impl Targets {
             Reflection { size, texture, read }
         };
         self.reflections = sizes.iter().map(make).collect();
+    }
+
+    /// Makes a solid's own target where it is not there yet; `layouts` are those of one sample and of several.
+    pub fn with_solid(&mut self, context: &Context, layouts: &[wgpu::BindGroupLayout; 2]) {
+        if self.solid.is_some() {
+            return;
+        }
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        let Shape { size, samples, .. } = self.shape;
+        let texture = texture(context, "solid depth and stencil", size, samples, context.depth_format(), usage);
+        let aspect = |aspect| texture.create_view(&wgpu::TextureViewDescriptor { aspect, ..Default::default() });
+        let views = [wgpu::TextureAspect::DepthOnly, wgpu::TextureAspect::StencilOnly].map(aspect);
+        let entry = |binding: usize| wgpu::BindGroupEntry {
+            binding: binding as u32,
+            resource: wgpu::BindingResource::TextureView(&views[binding]),
+        };
+        let read = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("solid"),
+            layout: &layouts[usize::from(samples != 1)],
+            entries: &[entry(0), entry(1)],
+        });
+        self.solid = Some(SolidTarget { depth_stencil: texture.create_view(&Default::default()), read });
     }
 
     /// Makes the counts' target where it is not there yet; `layouts` are those of one sample and of

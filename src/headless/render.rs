@@ -76,7 +76,17 @@ pub fn tally(context: &Context, renderer: &Renderer, settings: &Settings) -> Res
 pub fn open(settings: &Settings) -> Result<Scene, HeadlessError> {
     let scene = super::open_scene(&settings.scene, settings.floor)?;
     check_against(settings, &scene)?;
-    Ok(scene)
+    Ok(put_together(settings, scene))
+}
+
+/// The scene with its two solids put together, where settings and scene have some ([`Scene::combined`]), as they are at the
+/// settings' time.
+#[must_use]
+pub fn put_together(settings: &Settings, scene: Scene) -> Scene {
+    match scene.combination_at(settings) {
+        Some(combination) => scene.combined(combination),
+        None => scene,
+    }
 }
 
 fn lap(clock: &mut Instant) -> f64 {

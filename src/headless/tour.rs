@@ -65,7 +65,7 @@ pub fn tour(out: &Path) -> Result<Vec<PathBuf>, HeadlessError> {
         let scene = match open.take() {
             Some((choice, scene)) if choice == stop.settings.scene => scene,
             _ => {
-                let scene = super::open_scene(&stop.settings.scene, stop.settings.floor)?;
+                let scene = super::render::open(&stop.settings)?;
                 renderer.set_scene(&context, &scene)?;
                 scene
             }

@@ -19,6 +19,7 @@ pub mod open;
 pub mod pick;
 pub mod pose;
 pub mod slides;
+pub mod solid;
 pub mod stock;
 
 pub use animation::{Animation, AnimationChoice, Channel, Interpolation, Property};
@@ -29,6 +30,7 @@ pub use off_mirror::OffMirror;
 pub use open::{Loading, OpenError, load_on_thread, open};
 pub use pose::{DeformedMesh, Pose, PosedLight};
 pub use slides::{BuiltInSlide, Slide};
+pub use solid::{Combination, Operands, Solid, Unfit};
 
 use glam::{DAffine3, DQuat, DVec3, Vec3, Vec4};
 
@@ -57,6 +59,10 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// The mirrors among its surfaces, as the importer found them.
     pub mirrors: Vec<Mirror>,
+    /// Two objects that it means to be put together.
+    pub operands: Option<Operands>,
+    /// What was put together ([`Scene::combined`]).
+    pub solid: Option<Solid>,
     /// Light from everywhere and the colour behind everything.
     pub environment: Environment,
     /// Multiplies linear colour before the tone map; chosen for the scene, settings add stops.

@@ -16,6 +16,7 @@ pub mod bounds;
 pub mod cases;
 pub mod complexity;
 pub mod counting;
+pub mod csg;
 pub mod culling;
 mod cutout;
 pub mod depth_bounds;

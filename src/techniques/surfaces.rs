@@ -11,6 +11,7 @@ use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{Action, Draw, DrawSet, LightShape, Look, Program, Step, Surface, Target};
 use crate::geometry::frustum::screen_rect;
+use crate::scene::solid::Role;
 use crate::scene::{AlphaMode, Pose, Scene};
 use crate::settings::Texturing;
 
@@ -31,6 +32,8 @@ pub(super) struct Kind {
     pub textured_last: bool,
     /// Its number among the mirrors in force.
     pub mirror: Option<usize>,
+    /// Its depth is there already: of two solids put together what is seen was found out before.
+    pub laid: bool,
     pub look: Look,
 }
 
@@ -102,12 +105,17 @@ fn described<'a>(known: Known<'a>, view: &'a View) -> impl Iterator<Item = (Kind
     let through = view.through.as_ref().map(|window| window.surface);
     let described = scene.instances().enumerate().flat_map(move |(instance, (node, _, mesh))| {
         let winding = view.winding.through(pose.world_from_object[node].matrix3.determinant());
+        let role = scene.solid.as_ref().map_or(Role::Object, |solid| solid.role(instance));
         mesh.primitives.iter().enumerate().map(move |(primitive, part)| {
             let material = &scene.materials[part.material];
             let surface = Surface { instance, primitive };
-            let mirror = mirrors.of(surface);
+            let mirror = mirrors.of(surface).filter(|_| role == Role::Object);
             let kind = Kind {
-                cull: if material.double_sided { Cull::None } else { Cull::Back },
+                cull: match role {
+                    Role::Inside => Cull::Front,
+                    Role::Object if material.double_sided => Cull::None,
+                    _ => Cull::Back,
+                },
                 winding,
                 masked: matches!(material.alpha, AlphaMode::Mask(_)),
                 // Masked surfaces need their texture to know where they are, and what surfaces give off by
@@ -117,7 +125,9 @@ fn described<'a>(known: Known<'a>, view: &'a View) -> impl Iterator<Item = (Kind
                     && material.alpha == AlphaMode::Opaque
                     && material.emissive == Vec3::ZERO,
                 mirror,
+                laid: role != Role::Object,
                 look: Look {
+                    inside: role == Role::Inside,
                     clipped: places[instance] == Place::Across,
                     mirror: mirrors.look(mirror),
                     textured: material.base_color_texture.is_some(),
@@ -128,7 +138,10 @@ fn described<'a>(known: Known<'a>, view: &'a View) -> impl Iterator<Item = (Kind
             (kind, material.alpha, surface)
         })
     });
-    let is_seen = move |surface: Surface| places[surface.instance] != Place::Unseen && Some(surface) != through;
+    let casts_only = scene.solid.as_ref().and_then(|solid| solid.caster);
+    let is_seen = move |surface: Surface| {
+        Some(surface.instance) != casts_only && places[surface.instance] != Place::Unseen && Some(surface) != through
+    };
     described.filter(move |(.., surface)| is_seen(*surface))
 }
 
@@ -147,7 +160,7 @@ pub fn ambient<'a>(groups: impl IntoIterator<Item = &'a SurfaceGroup>, scissor: 
         look: group.kind.look,
         target: Target::Scene,
         state: State {
-            depth: Depth::LAY,
+            depth: group.first_depth(),
             stencil: StencilState::IGNORE,
             color: Some(Blend::Replace),
             cull: group.kind.cull,
@@ -299,7 +312,7 @@ pub fn tinted(groups: &[SurfaceGroup], tint: &Tint<'_>, wanted: impl Fn(Surface)
         look: group.bare_look(),
         target: Target::Scene,
         state: State {
-            depth: Depth::LAY,
+            depth: group.first_depth(),
             cull: if tint.inside { Cull::Front } else { group.kind.cull },
             ..group.again(Blend::Replace, StencilState::IGNORE)
         },
@@ -310,7 +323,7 @@ pub fn tinted(groups: &[SurfaceGroup], tint: &Tint<'_>, wanted: impl Fn(Surface)
         set: DrawSet::Surfaces(surfaces),
     };
     let of_group = |group: &SurfaceGroup| {
-        let has_inside = group.kind.cull != Cull::None;
+        let has_inside = group.kind.cull != Cull::None && !group.kind.laid;
         let drawn = group.surfaces.iter().copied().filter(|surface| wanted(*surface) && (has_inside || !tint.inside));
         let surfaces: Vec<_> = drawn.collect();
         (!surfaces.is_empty()).then(|| step(format!("{}{}", tint.label, group.words()), tint.why, draw(group, surfaces)))
@@ -474,6 +487,17 @@ impl SurfaceGroup {
         self.kind.mirror
     }
 
+    /// Whether its depth is there before it is drawn: two solids put together.
+    #[must_use]
+    pub fn is_laid(&self) -> bool {
+        self.kind.laid
+    }
+
+    /// How depth is tested where it is drawn first.
+    fn first_depth(&self) -> Depth {
+        if self.kind.laid { Depth::SAME_SURFACE } else { Depth::LAY }
+    }
+
     /// What lays its depth alone.
     fn depth_program(&self) -> Program {
         if self.kind.masked || self.kind.look.clipped { Program::DepthMasked } else { Program::Depth }
@@ -481,8 +505,8 @@ impl SurfaceGroup {
 
     /// Nothing but what decides where it is.
     fn bare_look(&self) -> Look {
-        let Look { textured, clipped, .. } = self.kind.look;
-        Look { textured: self.kind.masked && textured, clipped, ..Look::default() }
+        let Look { textured, clipped, inside, .. } = self.kind.look;
+        Look { textured: self.kind.masked && textured, clipped, inside, ..Look::default() }
     }
 
     /// In the colour of their numbers; lays depth.
@@ -491,7 +515,7 @@ impl SurfaceGroup {
             program: Program::Identity,
             look: self.bare_look(),
             target: Target::Scene,
-            state: State { depth: Depth::LAY, ..self.again(Blend::Replace, StencilState::IGNORE) },
+            state: State { depth: self.first_depth(), ..self.again(Blend::Replace, StencilState::IGNORE) },
             stencil_reference: 0,
             scissor,
             light: None,
@@ -539,6 +563,8 @@ impl SurfaceGroup {
             (kind.look.glossy, ", glossy"),
             (kind.look.clipped, ", clipped"),
             (kind.mirror.is_some(), ", mirror"),
+            (kind.laid && !kind.look.inside, ", of a solid"),
+            (kind.look.inside, ", inside of a solid"),
         ] {
             if there {
                 words.push_str(word);

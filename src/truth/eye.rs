@@ -225,6 +225,18 @@ impl World {
             nearest: [Nearest::NOTHING; RAYS],
         };
         self.tree.descend(&mut sight, stack);
+        if let Some(combined) = &self.combined {
+            for (at, direction) in directions.iter().enumerate() {
+                let crossings = combined.crossings(self, eye.at, *direction, stack);
+                let met = crossings.iter().filter(|crossing| crossing.into && crossing.distance > least[at]);
+                for crossing in met {
+                    let (depth, face) = (crossing.distance, crossing.face);
+                    let sure = sight.clear(*direction, depth - least[at]);
+                    let instance = self.faces[face as usize].instance;
+                    sight.nearest[at].or(Nearest { depth, face, instance, sure, ..Nearest::NOTHING });
+                }
+            }
+        }
         sight.nearest
     }
 }

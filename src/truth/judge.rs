@@ -104,6 +104,7 @@ impl World {
         let surface = Surface { points: [point; POINTS], displaced: [point; 2], face: NONE };
         let mut shadow = Shadow::new(self, light, &surface);
         self.tree.descend(&mut shadow, &mut Stack::new());
+        shadow.meet_solid(&mut Stack::new());
         light.shadows && shadow.counts[0] > 0
     }
 
@@ -193,6 +194,7 @@ impl<'a> Caster<'a> {
         let mut shadow = Shadow::new(self.world, light, &surface);
         shadow.counts_on = true;
         self.world.tree.descend(&mut shadow, &mut self.stack);
+        shadow.meet_solid(&mut self.stack);
         let counts = shadow.counts;
         counts.iter().all(|count| *count == counts[0]).then_some(counts[0])
     }
@@ -252,6 +254,7 @@ impl<'a> Caster<'a> {
             return Verdict::Shadow;
         }
         self.world.tree.descend(&mut shadow, &mut self.stack);
+        shadow.meet_solid(&mut self.stack);
         let shaded = shadow.counts.map(|count| count > 0);
         if shaded[0] {
             self.last[number] = shadow.whole.or(self.last[number]);
@@ -390,6 +393,28 @@ impl<'a> Shadow<'a> {
             over: None,
             mirror: NONE,
             unsure: false,
+        }
+    }
+
+    /// Counts how often the way to the light leaves two solids put together.
+    fn meet_solid(&mut self, stack: &mut Stack) {
+        let Some(combined) = &self.world.combined else { return };
+        let mut first = 0;
+        let mut crossed = [0u8; RAYS];
+        for &(apex, end) in &self.apices[..self.apex_count] {
+            for (crossed, direction) in crossed[first..end].iter_mut().zip(&self.directions[first..end]) {
+                let crossings = combined.crossings(self.world, apex, *direction, stack);
+                let barred = crossings.iter().filter(|it| it.into == self.from_light && it.distance < self.end).count();
+                *crossed = u8::try_from(barred).unwrap_or(u8::MAX);
+            }
+            first = end;
+        }
+        // A surface that is moved stays on the same side of the solid that it belongs to.
+        if self.own != NONE && combined.holds(self.own) {
+            self.displaced.iter().for_each(|&ray| crossed[ray] = crossed[0]);
+        }
+        for (count, crossed) in self.counts.iter_mut().zip(crossed) {
+            *count = count.wrapping_add(crossed);
         }
     }
 

@@ -77,6 +77,12 @@
 //! picture of exactly that against ([`Surfaces`]). Where surfaces of two instances lie closer together than
 //! steps of the depth buffer, that is an edge, and the verdict is not.
 //!
+//! # Solids put together
+//!
+//! Where a scene has two solids put together ([`crate::scene::Solid`]), neither is a surface by itself. Of every ray the
+//! intervals are taken that it spends in each of them, from infinity on, and where it enters the result it meets a
+//! surface; the way to a light is barred where it leaves it. The mesh that casts the solid's shadow has no say.
+//!
 //! # Fast enough
 //!
 //! Nine rays to the surface and fifteen to each light would be much for every pixel. But they run close
@@ -88,6 +94,7 @@ mod eye;
 mod judge;
 mod mask;
 mod path;
+mod solid;
 mod tree;
 mod world;
 

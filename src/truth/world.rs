@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::mask::Masks;
+use super::solid::Combined;
 use super::tree::Tree;
 use crate::geometry::Aabb;
 use crate::geometry::planar::height;
@@ -25,6 +26,8 @@ pub struct World {
     pub(super) largest: f64,
     /// By their numbers.
     pub(super) mirrors: Vec<Glass>,
+    /// Two solids put together.
+    pub(super) combined: Option<Combined>,
 }
 
 /// A mirror in the world.
@@ -102,8 +105,15 @@ impl World {
     #[must_use]
     pub fn with_mirrors(scene: &Scene, pose: &Pose, mirrors: &[Mirror]) -> Self {
         let mut faces = Vec::new();
+        let mut operands = Vec::new();
         let mut masks = Masks::new(scene);
         for (instance, (node_index, node, mesh)) in (0u32..).zip(scene.instances()) {
+            let number = instance as usize;
+            let solid = scene.solid.as_ref();
+            if solid.is_some_and(|solid| solid.caster == Some(number)) {
+                continue;
+            }
+            let operand = solid.filter(|solid| number == solid.a || number == solid.b).map(|solid| number == solid.b);
             let world_from_object = pose.world_from_object[node_index];
             let positions = pose.positions(scene, node_index);
             let mirrored = world_from_object.matrix3.determinant() < 0.0;
@@ -113,14 +123,17 @@ impl World {
                 let mirror = mirror.and_then(|mirror| u32::try_from(mirror).ok()).unwrap_or(NONE);
                 let material = &scene.materials[primitive.material];
                 let seen = match (material.alpha, material.double_sided) {
+                    _ if operand.is_some() => Seen::Never,
                     (AlphaMode::Blend, _) => Seen::Never,
                     (_, true) => Seen::FromBothSides,
                     (_, false) => Seen::FromFront,
                 };
                 let first = primitive.first_index as usize / 3;
                 for triangle in first..first + primitive.index_count as usize / 3 {
-                    let casts = casts.get(triangle).copied().unwrap_or(Casts::Never);
-                    if seen == Seen::Never && casts == Casts::Never {
+                    let casts = casts.get(triangle).copied().filter(|_| operand.is_none()).unwrap_or(Casts::Never);
+                    if let Some(of_b) = operand {
+                        operands.push((faces.len() as u32, of_b));
+                    } else if seen == Seen::Never && casts == Casts::Never {
                         continue;
                     }
                     let vertices = [0, 1, 2].map(|corner| mesh.indices[triangle * 3 + corner] as usize);
@@ -136,6 +149,8 @@ impl World {
             }
         }
         let boxes: Vec<_> = faces.iter().map(Face::bounds).collect();
+        let of_operands: Vec<_> = operands.iter().map(|&(face, _)| boxes[face as usize]).collect();
+        let combined = scene.solid.as_ref().map(|solid| Combined::new(solid.of.operation, operands, &of_operands));
         let bounds = scene.bounds(pose);
         let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
         let largest = if largest.is_finite() { f64::from(largest) } else { 0.0 };
@@ -150,6 +165,7 @@ impl World {
             size: 2.0 * f64::from(bounds.radius()),
             largest,
             mirrors: mirrors.iter().map(glass).collect(),
+            combined,
         }
     }
 

@@ -9,6 +9,7 @@ mod camera;
 mod commands;
 mod complexity;
 mod counting;
+mod csg;
 mod culling;
 mod failures;
 mod gather;
@@ -249,6 +250,7 @@ impl Panel {
         style::section(ui, "Lights", true, |ui| lights::lights(ui, self, desk, view));
         style::section(ui, "Gathering", true, |ui| gather::gather(ui, desk, view));
         style::section(ui, "Mirrors", true, |ui| mirrors::mirrors(ui, self, desk, view));
+        style::section(ui, "Solids", false, |ui| csg::csg(ui, desk, view));
         style::section(ui, "Halos", false, |ui| halo::halos(ui, desk, view));
         style::section(ui, "Count", false, |ui| counting::counting(ui, desk, view));
         style::section(ui, "Culling", false, |ui| culling::culling(ui, desk, view));

@@ -13,7 +13,7 @@ use crate::frame::camera::DEFAULT_NEAR;
 use crate::scene::gltf::{ImportError, load_embedded};
 use crate::scene::{
     Animation, AnimationChoice, BuiltInSlide, Camera, Channel, Environment, Extent, Interpolation, Light, LightKind, Material,
-    Mesh, MeshParts, Node, Primitive, Property, Reflective, Scene, Transform,
+    Mesh, MeshParts, Node, Operands, Primitive, Property, Reflective, Scene, Transform,
 };
 
 macro_rules! model {
@@ -262,6 +262,11 @@ impl Composer {
     /// The same shape drawn from both sides: a sheet.
     pub(super) fn sheet(&mut self, prop: Prop) -> Prop {
         self.remade(prop, |material| material.double_sided = true)
+    }
+
+    /// Two nodes are meant to be put together.
+    pub(super) fn combines(&mut self, operands: Operands) {
+        self.scene.operands = Some(operands);
     }
 
     /// A node glows, with all that hangs on it.

@@ -6,6 +6,7 @@ mod cathedral;
 mod compose;
 mod corridor;
 mod courtyard;
+mod csg;
 mod cubes;
 mod demonstrations;
 mod eye_in_shadow;
@@ -122,6 +123,11 @@ pub static TABLE: &[StockScene] = &[
         name: "halo",
         about: "a hooded figure, a ring and an orb in magic haloes, over a polished floor with shadows (Kilgard 1999, figure 17)",
         build: halo::build,
+    },
+    StockScene {
+        name: "csg",
+        about: "a ball and a knot put together to one solid: either, both, one without the other (Kilgard 1999, figure 19)",
+        build: csg::build,
     },
 ];
 
