@@ -48,6 +48,9 @@ impl Frame<'_> {
         if !self.scene.mirrors_in_force(&self.settings.mirrors).0.is_empty() {
             self.plan.notes.push("mirrors are ordinary surfaces here: one stencil byte counts one view's fragments".into());
         }
+        if self.scene.solid.is_some() {
+            self.plan.notes.push("two solids put together are counted as the two objects that they are drawn from".into());
+        }
         let (whole, what, budget) = (self.whole(), self.settings.complexity, self.plan.budget);
         self.clear_all(cases::BACKGROUND, 0);
         let blended = surfaces::transparent(self.known(), self.view(), whole);

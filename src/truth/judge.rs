@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3, DVec4};
 use super::compare::{Verdict, Verdicts};
 use super::eye::{CLIP_ROUNDING, Eye, PLACES, SLACK, Shown, enters};
 use super::path::{Path, Surfaces};
+use super::solid::Crossing;
 use super::tree::{Bundle, Stack};
 use super::world::{Asked, Casts, Face, NONE, World};
 use crate::frame::Camera;
@@ -288,6 +289,7 @@ impl<'a> Caster<'a> {
             let mut onward = Shadow { over, ..Shadow::new(self.world, light, surface) };
             for shadow in [&mut onward, &mut before] {
                 self.world.tree.descend(shadow, &mut self.stack);
+                shadow.meet_solid(&mut self.stack);
                 unsure |= shadow.unsure;
                 free.iter_mut().zip(shadow.counts).for_each(|(free, count)| *free &= count == 0);
             }
@@ -404,7 +406,10 @@ impl<'a> Shadow<'a> {
         for &(apex, end) in &self.apices[..self.apex_count] {
             for (crossed, direction) in crossed[first..end].iter_mut().zip(&self.directions[first..end]) {
                 let crossings = combined.crossings(self.world, apex, *direction, stack);
-                let barred = crossings.iter().filter(|it| it.into == self.from_light && it.distance < self.end).count();
+                let over =
+                    |distance: f64| self.over.is_none_or(|(plane, slack)| height(plane, apex + *direction * distance) > slack);
+                let bars = |it: &&Crossing| it.into == self.from_light && it.distance < self.end && over(it.distance);
+                let barred = crossings.iter().filter(bars).count();
                 *crossed = u8::try_from(barred).unwrap_or(u8::MAX);
             }
             first = end;
