@@ -32,6 +32,7 @@ use clap::{Args, CommandFactory as _, Parser, Subcommand};
 use glam::DVec3;
 
 use crate::failures;
+use crate::figures::{self, Figure};
 use crate::scene::{AnimationChoice, stock};
 use crate::settings::{Api, CameraChoice, Failure, LightEdit, MAX_SIZE, SceneChoice, Settings, Show, Technique};
 
@@ -79,6 +80,15 @@ pub enum Command {
         floor: bool,
         /// As JSON.
         json: bool,
+    },
+    /// Draws the papers' figures.
+    Figures {
+        /// Which, in the order of the table.
+        figures: Vec<&'static Figure>,
+        /// Pixels.
+        size: [u32; 2],
+        /// The folder to write to; made where it is missing.
+        out: PathBuf,
     },
     /// Draws every stock scene in every mode.
     Tour {
@@ -193,6 +203,11 @@ impl Parsed {
             Some(Subcommands::List { json }) => Command::List { json },
             Some(Subcommands::Info { scene, floor, json }) => Command::Info { scene: scene_choice(&scene)?, floor, json },
             Some(Subcommands::Tour { out }) => Command::Tour { out },
+            Some(Subcommands::Figures { names, out, size }) => {
+                let (figures, size) = (figures_named(&names)?, size.unwrap_or(FIGURE_SIZE));
+                check(&Settings { size, ..Settings::default() })?;
+                Command::Figures { figures, size, out }
+            }
         })
     }
 }
@@ -212,6 +227,19 @@ pub fn scene_choice(word: &OsStr) -> Result<SceneChoice, InputError> {
     // The `./` that only keeps a name from being taken for something else is not part of the path.
     let bare = text.strip_prefix("./").filter(|rest| needs_dot(rest));
     Ok(SceneChoice::File(bare.unwrap_or(text).into()))
+}
+
+/// The size of a figure, pixels, where nothing is said.
+const FIGURE_SIZE: [u32; 2] = [1280, 720];
+
+/// The figures whose names begin with one of these; all of them for none.
+fn figures_named(names: &[String]) -> Result<Vec<&'static Figure>, InputError> {
+    let begins = |figure: &Figure, name: &String| !name.is_empty() && figure.name.starts_with(name.as_str());
+    if let Some(name) = names.iter().find(|name| !figures::TABLE.iter().any(|figure| begins(figure, name))) {
+        let known = figures::TABLE.iter().map(|figure| figure.name).collect::<Vec<_>>().join(", ");
+        return Err(InputError::Unknown { kind: "figure", name: name.clone(), known });
+    }
+    Ok(figures::TABLE.iter().filter(|figure| names.is_empty() || names.iter().any(|name| begins(figure, name))).collect())
 }
 
 fn is_stock(name: &str) -> bool {
@@ -272,6 +300,21 @@ enum Subcommands {
         /// Adds a floor beneath a file's scene
         #[arg(long)]
         floor: bool,
+    },
+    /// Draws the papers' figures into a folder, and a page that shows them all
+    ///
+    /// Without names all of them; a paper's letter (k, m, l, b, c), or the beginning of a name such as k19, stands for every
+    /// figure that begins with it.
+    Figures {
+        /// Such as k03a; all of them where none is named
+        #[arg(value_name = "NAME")]
+        names: Vec<String>,
+        /// The folder; made where it is missing
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+        /// Pixels [default: 1280x720]
+        #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = size)]
+        size: Option<[u32; 2]>,
     },
     /// Draws each stock scene by each technique, and everything that can be shown, into a folder
     Tour {

@@ -43,6 +43,7 @@
 //! | [`director`] | the pass order |
 //! | [`failures`] | the classic mistakes: what each looks like, why, and how it spoils a finished plan |
 //! | [`gpu`] | the device, shaders, pipelines, buffers, encoding, read-back, timing |
+//! | [`figures`] | the papers' figures: what is to be seen in each, and the settings that draw it |
 //! | [`truth`] | exact rays: what each pixel must be, and the comparison with what was drawn |
 //! | [`headless`] | pictures, the tour, lists and reports without a window |
 //! | [`app`] | the window: loop, surface, input, and the panel, which edits settings and nothing else |
@@ -162,6 +163,7 @@ pub mod app;
 pub mod cli;
 pub mod director;
 pub mod failures;
+pub mod figures;
 pub mod frame;
 pub mod geometry;
 pub mod gpu;

@@ -77,6 +77,11 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::List { json } => print_as(&Catalog::new(), json),
         Command::Info { scene, floor, json } => print_as(&doctor::report(&headless::open_scene(&scene, floor)?), json),
         Command::Tour { out } => take_tour(&out),
+        Command::Figures { figures, size, out } => {
+            let files = headless::figures::figures(&figures, size, &out)?;
+            let folder = out.canonicalize().unwrap_or(out);
+            print(&format!("{} figures, and {} that shows them, in {}\n", files.len(), headless::figures::PAGE, folder.display()))
+        }
     }
 }
 

@@ -327,6 +327,28 @@ fn bad_input_is_one_line_and_leaves_nothing() {
     }
 }
 
+#[test]
+fn figures_are_drawn_with_a_page_that_shows_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let said = good(here, &["figures", "k19c", "c", "--out", "figures", "--size", "96x54"]);
+    assert!(said.starts_with("3 figures, and index.html that shows them, in "), "{said}");
+    assert_eq!(names(&here.join("figures")), ["c01a.png", "c01b.png", "index.html", "k19c.png"]);
+    let page = std::fs::read_to_string(here.join("figures/index.html")).unwrap();
+    for part in ["src=\"k19c.png\"", "A minus B", "obscura render csg --out obscura.png --size 96x54", "Z-fail"] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert_eq!(image::image_dimensions(here.join("figures/k19c.png")).unwrap(), (96, 54));
+    for (arguments, expected) in [
+        (&["figures", "k99", "--out", "no"][..], "no figure `k99`; there are: k03a, "),
+        (&["figures", "", "--out", "no"], "no figure ``"),
+        (&["figures", "c", "--out", "no", "--size", "0x5"], "0x5"),
+    ] {
+        assert!(bad(here, arguments).contains(expected), "{arguments:?}");
+    }
+    assert_eq!(names(here), ["figures"]);
+}
+
 #[cfg(target_os = "linux")] // elsewhere other drivers than Vulkan's draw
 #[test]
 fn no_device_is_one_line_that_says_so() {

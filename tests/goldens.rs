@@ -12,6 +12,8 @@ use std::path::{Path, PathBuf};
 use common::Stage;
 use glam::DVec3;
 use image::RgbaImage;
+use obscura::figures;
+use obscura::headless::render::open;
 use obscura::scene::stock;
 use obscura::settings::{LightEdit, MirrorLight, MirrorMode, Mirrors, Operation, Settings, Show, Technique};
 
@@ -134,6 +136,20 @@ fn every_operation_on_solids_looks_as_it_did() {
         let scene = scene.combined(scene.combination_at(&settings).unwrap());
         stage.set_scene(&scene);
         faults.extend(compare(&format!("csg-{}", operation.name()), &stage.shoot(&settings, &scene).image).err());
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Every figure of the papers, as small as the others here and with one sample a pixel.
+#[test]
+fn every_figure_looks_as_it_did() {
+    let mut stage = Stage::new();
+    let mut faults = Vec::new();
+    for figure in figures::TABLE {
+        let settings = figure.settings(&Settings { size: SIZE, ..Settings::default() });
+        let scene = open(&settings).unwrap();
+        stage.set_scene(&scene);
+        faults.extend(compare(&format!("figure-{}", figure.name), &stage.shoot(&settings, &scene).image).err());
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }

@@ -64,6 +64,7 @@ fn every_option_is_listed_and_no_other() {
         &["list", "--help"],
         &["info", "--help"],
         &["tour", "--help"],
+        &["figures", "--help"],
         &["verify", "--help"],
         &["playground", "--help"],
     ] {

@@ -263,6 +263,17 @@ fn mirrors_are_chosen_and_told() {
 }
 
 #[test]
+fn figures_are_asked_for_by_a_click() {
+    let mut harness = open(Bench::new());
+    harness.get_by_label("Figures").click();
+    harness.run_steps(3);
+    click(&mut harness, "Figure 3, middle: The same without the stencil");
+    let number = obscura::figures::TABLE.iter().position(|figure| figure.name == "k03b").unwrap();
+    assert_eq!(harness.state().actions, [Action::Figure(number)]);
+    assert!(labels(&harness).iter().any(|words| words == obscura::figures::TABLE[number].seen), "what to see in it");
+}
+
+#[test]
 fn solids_are_put_together_by_choice() {
     let mut harness = open(reflecting("csg"));
     harness.get_by_label("Solids").click();

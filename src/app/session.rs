@@ -8,6 +8,7 @@ use super::verify::Verification;
 use super::{WindowOptions, photo, store};
 use crate::cli::render_command;
 use crate::failures::demonstration;
+use crate::figures;
 use crate::frame::{Capabilities, FramePlan};
 use crate::scene::open::{Loading, load_on_thread};
 use crate::scene::{Pose, Scene, doctor, stock};
@@ -35,8 +36,27 @@ struct Opening {
     /// It is the scene that is there already, or the one that the settings were made for: camera
     /// and lights stay.
     keep: bool,
-    /// The failure that it is to show, with all that belongs to that.
-    failure: Option<Failure>,
+    /// What it is to show, with all that belongs to that.
+    exhibit: Option<Exhibit>,
+}
+
+/// Something that brings scene, camera and settings along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Exhibit {
+    /// A failure of the gallery.
+    Failure(Failure),
+    /// A figure of the papers, by its number in the table.
+    Figure(usize),
+}
+
+impl Exhibit {
+    /// All that shows it; what is not of the scene is `base`'s.
+    fn settings(self, base: &Settings) -> Settings {
+        match self {
+            Self::Failure(failure) => demonstration(failure, base),
+            Self::Figure(number) => figures::TABLE.get(number).map_or_else(|| base.clone(), |figure| figure.settings(base)),
+        }
+    }
 }
 
 /// The last picture.
@@ -167,13 +187,13 @@ impl Session {
             SceneChoice::File(path) => path.display().to_string(),
         };
         let floor = self.settings.floor;
-        self.opening = Some(Opening { loading: load_on_thread(choice, floor, wake), name, floor, keep, failure: None });
+        self.opening = Some(Opening { loading: load_on_thread(choice, floor, wake), name, floor, keep, exhibit: None });
     }
 
-    /// Shows a failure of the gallery, on the scene that shows it well; that is opened first where it is not
+    /// Shows a failure of the gallery, or a figure, on the scene that shows it well; that is opened first where it is not
     /// there yet, so that the settings never speak of another.
-    pub fn demonstrate(&mut self, failure: Failure, wake: impl FnOnce() + Send + 'static) {
-        let wanted = demonstration(failure, &self.settings);
+    pub fn demonstrate(&mut self, exhibit: Exhibit, wake: impl FnOnce() + Send + 'static) {
+        let wanted = exhibit.settings(&self.settings);
         if self.loaded.is_some() && self.opening.is_none() && wanted.scene == self.settings.scene && !self.settings.floor {
             self.settings = wanted;
             return;
@@ -181,7 +201,7 @@ impl Session {
         self.settings.floor = false;
         self.open(wanted.scene, true, wake);
         if let Some(opening) = &mut self.opening {
-            opening.failure = Some(failure);
+            opening.exhibit = Some(exhibit);
         }
     }
 
@@ -202,8 +222,8 @@ impl Session {
         let choice = opening.loading.choice;
         match result {
             Ok(scene) => {
-                if let Some(failure) = opening.failure {
-                    self.settings = demonstration(failure, &self.settings);
+                if let Some(exhibit) = opening.exhibit {
+                    self.settings = exhibit.settings(&self.settings);
                 } else if !opening.keep {
                     store::turn_to(&mut self.settings, choice.clone());
                 }
@@ -404,14 +424,14 @@ mod tests {
         let mut session = session();
         let before = session.settings.clone();
         let (woken, wait) = std::sync::mpsc::channel();
-        session.demonstrate(Failure::DarkCapFan, move || woken.send(()).unwrap());
+        session.demonstrate(Exhibit::Failure(Failure::DarkCapFan), move || woken.send(()).unwrap());
         assert_eq!(session.settings, before, "not before");
         wait.recv_timeout(std::time::Duration::from_secs(60)).unwrap();
         session.take_opened(|_| Ok(()));
         assert_eq!(session.settings, demonstration(Failure::DarkCapFan, &before));
         session.settings.camera = CameraChoice::Named("inside".into());
         session.settings.failure = None;
-        session.demonstrate(Failure::DarkCapFan, || unreachable!("the scene is there"));
+        session.demonstrate(Exhibit::Failure(Failure::DarkCapFan), || unreachable!("the scene is there"));
         assert_eq!(session.settings, demonstration(Failure::DarkCapFan, &before), "seen from where it shows well");
     }
 

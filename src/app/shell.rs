@@ -18,7 +18,7 @@ use winit::window::{Fullscreen, Window, WindowId};
 use super::device::{Painted, Screen};
 use super::live::{Live, new_egui, run_panel};
 use super::pace::{self, Pace};
-use super::session::{Drawn, Session};
+use super::session::{Drawn, Exhibit, Session};
 use super::surface::{AFTER_TIMEOUT, After, Before, SurfaceState};
 use super::ui::{Action, FrameNumbers, Tone, Topic, style};
 use super::{AppError, Wake, WindowOptions, store};
@@ -352,7 +352,11 @@ impl Shell {
             Action::Open(choice) => self.open(choice, false),
             Action::Demonstrate(failure) => {
                 let wake = self.waker(Wake::Scene);
-                self.session.demonstrate(failure, wake);
+                self.session.demonstrate(Exhibit::Failure(failure), wake);
+            }
+            Action::Figure(number) => {
+                let wake = self.waker(Wake::Scene);
+                self.session.demonstrate(Exhibit::Figure(number), wake);
             }
             Action::Reload => self.open(self.session.settings.scene.clone(), true),
             Action::Screenshot => self.photograph(),

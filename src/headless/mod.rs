@@ -5,6 +5,7 @@
 //! - [`json`] is what `render --json` prints, [`catalog`] what `list` prints.
 
 pub mod catalog;
+pub mod figures;
 pub mod json;
 pub mod render;
 mod save;

@@ -12,6 +12,7 @@ mod counting;
 mod csg;
 mod culling;
 mod failures;
+mod figures;
 mod gather;
 mod gizmo;
 mod halo;
@@ -127,6 +128,8 @@ pub enum Action {
     Open(SceneChoice),
     /// Shows a failure of the gallery where it shows well.
     Demonstrate(Failure),
+    /// Shows a figure of the papers, by its number in the table.
+    Figure(usize),
     /// Reads the scene again.
     Reload,
     /// Forgets the files opened before.
@@ -167,6 +170,8 @@ pub struct Panel {
     pub help: bool,
     /// The failure that was chosen last, also while it is off.
     failure: Option<Failure>,
+    /// The figure that was chosen last.
+    figure: Option<usize>,
     focus_path: bool,
     /// Clicks on the picture make mirrors.
     makes_mirrors: bool,
@@ -245,6 +250,7 @@ impl Panel {
         style::section(ui, "Technique", true, |ui| technique::techniques(ui, desk));
         style::section(ui, "Show", true, |ui| technique::show(ui, desk, view));
         style::section(ui, "Stencil playground", false, |ui| playground::playground(ui, self, desk));
+        style::section(ui, "Figures", false, |ui| figures::figures(ui, self, actions));
         style::section(ui, "Failures", false, |ui| failures::failures(ui, self, desk, actions));
         style::section(ui, "Proof", true, |ui| verify::verify(ui, desk, view, actions));
         style::section(ui, "Lights", true, |ui| lights::lights(ui, self, desk, view));

@@ -1,0 +1,421 @@
+//! The figures themselves, paper by paper.
+
+use glam::DVec3;
+
+use super::{Figure, Paper};
+use crate::settings::{CameraChoice, Complexity, LightBounds, LightEdit, MirrorMode, Operation, Settings, Show, Technique};
+
+/// From here to there.
+fn look(settings: &mut Settings, eye: [f64; 3], target: [f64; 3]) {
+    settings.camera = CameraChoice::Free { eye: DVec3::from(eye), target: DVec3::from(target) };
+}
+
+/// By one of the scene's cameras.
+fn camera(settings: &mut Settings, name: &str) {
+    settings.camera = CameraChoice::Named(name.into());
+}
+
+fn off(settings: &mut Settings, light: usize) {
+    settings.lights.insert(light, LightEdit { on: Some(false), ..LightEdit::default() });
+}
+
+fn csg(settings: &mut Settings, operation: Operation) {
+    settings.csg.operation = Some(operation);
+}
+
+/// Every figure, paper by paper, in the paper's order.
+pub static TABLE: &[Figure] = &[
+    Figure {
+        name: "k03a",
+        paper: Paper::Kilgard,
+        number: "Figure 3, left",
+        title: "A reflection kept within its mirror by the stencil",
+        seen: "The dinosaur's reflection ends where the shining table ends, because only pixels tagged in the stencil take it.",
+        instead: "a dinosaur of our own",
+        scene: "figure3",
+        view: |settings| settings.mirrors.mode = MirrorMode::Stencil,
+    },
+    Figure {
+        name: "k03b",
+        paper: Paper::Kilgard,
+        number: "Figure 3, middle",
+        title: "The same without the stencil",
+        seen: "Nothing keeps the reflection within the table: head and shoulders stick out below its edge.",
+        instead: "a dinosaur of our own",
+        scene: "figure3",
+        view: |settings| settings.mirrors.mode = MirrorMode::Unbounded,
+    },
+    Figure {
+        name: "k03c",
+        paper: Paper::Kilgard,
+        number: "Figure 3, right",
+        title: "The reflection is the object, flipped through the mirror's plane",
+        seen: "Seen almost along the table, the object and what passes for its reflection stand on the two sides of a thin plane.",
+        instead: "a dinosaur of our own",
+        scene: "figure3",
+        view: |settings| {
+            settings.mirrors.mode = MirrorMode::Unbounded;
+            look(settings, [-0.6, 0.16, 4.3], [0.0, 0.0, 0.0]);
+        },
+    },
+    Figure {
+        name: "k04",
+        paper: Paper::Kilgard,
+        number: "Figure 4",
+        title: "Recursive reflections between two parallel mirrors",
+        seen: "Each mirror shows the other, and in it itself, room behind room, each kept to its own pixels by a level in the stencil.",
+        instead: "a barber's shop of our own",
+        scene: "barbershop",
+        view: |_| {},
+    },
+    Figure {
+        name: "k05",
+        paper: Paper::Kilgard,
+        number: "Figure 5",
+        title: "Bird's eye view of the reflected rooms",
+        seen: "The rooms that the mirrors make, where they seem to stand; the lines bound what the eye sees of each. The real room is the light one in the middle.",
+        instead: "",
+        scene: "barbershop",
+        view: |settings| settings.show = Show::Birdseye,
+    },
+    Figure {
+        name: "k09a",
+        paper: Paper::Kilgard,
+        number: "Figure 9, left",
+        title: "The shadow volume of a cut-out",
+        seen: "The letters' outline, swept away from the lamp: what lies within is in shadow.",
+        instead: "a slab with our own name for the NVIDIA logo",
+        scene: "teapots",
+        view: |settings| {
+            settings.show = Show::Volumes;
+            settings.technique = Technique::Cutout;
+        },
+    },
+    Figure {
+        name: "k09b",
+        paper: Paper::Kilgard,
+        number: "Figure 9, right",
+        title: "What the volume shadows",
+        seen: "The letters fall on the floor, on round balls and on the teapots alike: a volume needs no flat receiver.",
+        instead: "a slab with our own name for the NVIDIA logo",
+        scene: "teapots",
+        view: |settings| settings.technique = Technique::Cutout,
+    },
+    Figure {
+        name: "k11",
+        paper: Paper::Kilgard,
+        number: "Figure 11",
+        title: "shadowfun",
+        seen: "Two lamps throw every toy on the wall twice; silhouettes are flattened into cut-outs each frame, as his program did it.",
+        instead: "toys of our own",
+        scene: "shadowfun",
+        view: |settings| settings.technique = Technique::Flattened,
+    },
+    Figure {
+        name: "k12a",
+        paper: Paper::Kilgard,
+        number: "Figure 12, left",
+        title: "hello2rts",
+        seen: "Solid letters throw overlapping shadows on each other and on balls, in two lights of two colours.",
+        instead: "letters and balls of our own",
+        scene: "hello2rts",
+        view: |_| {},
+    },
+    Figure {
+        name: "k12b",
+        paper: Paper::Kilgard,
+        number: "Figure 12, right",
+        title: "hello2rts from the side",
+        seen: "Where both shadows fall on each other only ambient light is left; where one falls, the other lamp's colour shows.",
+        instead: "letters and balls of our own",
+        scene: "hello2rts",
+        view: |settings| camera(settings, "left"),
+    },
+    Figure {
+        name: "k15",
+        paper: Paper::Kilgard,
+        number: "Figure 15",
+        title: "Soft shadows from many shadow volumes",
+        seen: "A lamp with a size is counted as eight points: the shadow's rim goes to light in bands, one for each of them.",
+        instead: "a slide projector's room of our own",
+        scene: "projector",
+        view: |settings| {
+            settings.lighting.area_samples = 8;
+            off(settings, 0);
+            let (position, intensity) = (Some(DVec3::new(-1.6, 1.5, 1.6)), Some(34.0));
+            settings.lights.insert(1, LightEdit { position, intensity, radius: Some(0.22), ..LightEdit::default() });
+        },
+    },
+    Figure {
+        name: "k17",
+        paper: Paper::Kilgard,
+        number: "Figure 17",
+        title: "A magic halo, with reflection and shadow",
+        seen: "The glow surrounds its objects and never covers them, no pixel glows twice, the floor reflects objects and glow, and the column hides the ring's.",
+        instead: "a pilgrim, a ring and an orb for his sphere",
+        scene: "halo",
+        view: |_| {},
+    },
+    Figure {
+        name: "k19a",
+        paper: Paper::Kilgard,
+        number: "Figure 19, upper left",
+        title: "A or B",
+        seen: "The ball and the knot as one solid, in one shadow.",
+        instead: "a ball and a knot of our own",
+        scene: "csg",
+        view: |settings| csg(settings, Operation::Union),
+    },
+    Figure {
+        name: "k19b",
+        paper: Paper::Kilgard,
+        number: "Figure 19, upper right",
+        title: "A and B",
+        seen: "Only what lies in both is left: pieces of the knot, with caps of the ball's surface.",
+        instead: "a ball and a knot of our own",
+        scene: "csg",
+        view: |settings| csg(settings, Operation::Intersection),
+    },
+    Figure {
+        name: "k19c",
+        paper: Paper::Kilgard,
+        number: "Figure 19, lower left",
+        title: "A minus B",
+        seen: "The knot has left its bed in the ball: its inside is seen there, in its own colour, in light and shadow.",
+        instead: "a ball and a knot of our own",
+        scene: "csg",
+        view: |settings| csg(settings, Operation::AMinusB),
+    },
+    Figure {
+        name: "k19d",
+        paper: Paper::Kilgard,
+        number: "Figure 19, lower right",
+        title: "B minus A",
+        seen: "What of the knot lies outside the ball, cut off along the ball's surface, whose inside shows at the cuts.",
+        instead: "a ball and a knot of our own",
+        scene: "csg",
+        view: |settings| csg(settings, Operation::BMinusA),
+    },
+    Figure {
+        name: "k20a",
+        paper: Paper::Kilgard,
+        number: "Figure 20, left",
+        title: "A dinosaur, drawn normally",
+        seen: "What is to be counted in the picture beside it.",
+        instead: "a dinosaur of our own",
+        scene: "figure3",
+        view: |settings| {
+            settings.mirrors.mode = MirrorMode::Off;
+            look(settings, [1.3, 1.3, 2.6], [0.05, 0.65, 0.0]);
+        },
+    },
+    Figure {
+        name: "k20b",
+        paper: Paper::Kilgard,
+        number: "Figure 20, right",
+        title: "Its depth complexity",
+        seen: "How many fragments fall on each pixel, hidden ones too, counted in the stencil and shown in false colour.",
+        instead: "a dinosaur of our own",
+        scene: "figure3",
+        view: |settings| {
+            settings.mirrors.mode = MirrorMode::Off;
+            settings.show = Show::Complexity;
+            settings.complexity = Complexity::Fragments;
+            look(settings, [1.3, 1.3, 2.6], [0.05, 0.65, 0.0]);
+        },
+    },
+    Figure {
+        name: "m01a",
+        paper: Paper::McGuire,
+        number: "Image 1, left",
+        title: "The scene's triangles",
+        seen: "Every edge of the nave: what the shadow volumes are made of.",
+        instead: "a Gothic nave and pilgrims of our own for the cathedral and the Quake III characters",
+        scene: "cathedral",
+        view: |settings| settings.show = Show::Wireframe,
+    },
+    Figure {
+        name: "m01b",
+        paper: Paper::McGuire,
+        number: "Image 1, right",
+        title: "Characters in a nave, by point lights",
+        seen: "Everything shadows everything: figures, piers, vaults, a swinging crown of light.",
+        instead: "a Gothic nave and pilgrims of our own for the cathedral and the Quake III characters",
+        scene: "cathedral",
+        view: |_| {},
+    },
+    Figure {
+        name: "m02",
+        paper: Paper::McGuire,
+        number: "Image 2",
+        title: "Its shadow volumes",
+        seen: "The volumes of one light as coloured glass over the picture; the caps are hidden by the objects themselves.",
+        instead: "a Gothic nave and pilgrims of our own",
+        scene: "cathedral",
+        view: |settings| settings.show = Show::Volumes,
+    },
+    Figure {
+        name: "m03a",
+        paper: Paper::McGuire,
+        number: "Image 3, left",
+        title: "A light on top of a flight of stairs",
+        seen: "At the foot 256 volumes lie one in another, as many as eight bits count to none, and yet it is dark there: the count goes in batches.",
+        instead: "",
+        scene: "stairs",
+        view: |_| {},
+    },
+    Figure {
+        name: "m03b",
+        paper: Paper::McGuire,
+        number: "Image 3, right",
+        title: "The nested volumes",
+        seen: "Each step's volume lies in those of all steps above it.",
+        instead: "",
+        scene: "stairs",
+        view: |settings| settings.show = Show::Volumes,
+    },
+    Figure {
+        name: "m04a",
+        paper: Paper::McGuire,
+        number: "Image 4, left",
+        title: "A light without bounds, from above",
+        seen: "Nothing bounds the light's count: its volumes are drawn over all the view.",
+        instead: "a Gothic nave of our own",
+        scene: "cathedral",
+        view: |settings| {
+            settings.show = Show::Bounds;
+            settings.light = 1;
+            settings.culling.light_bounds = LightBounds::None;
+        },
+    },
+    Figure {
+        name: "m04b",
+        paper: Paper::McGuire,
+        number: "Image 4, right",
+        title: "The same light within its scissor",
+        seen: "What the light can reach bounds the pixels in which anything is counted: a slice of the view.",
+        instead: "a Gothic nave of our own",
+        scene: "cathedral",
+        view: |settings| {
+            settings.show = Show::Bounds;
+            settings.light = 1;
+        },
+    },
+    Figure {
+        name: "m05a",
+        paper: Paper::McGuire,
+        number: "Image 5, left",
+        title: "A light in a grid of cubes",
+        seen: "The light wanders among the cubes, each of which shadows those behind it.",
+        instead: "an amphitheatre for the cathedral's inside",
+        scene: "grid",
+        view: |_| {},
+    },
+    Figure {
+        name: "m05b",
+        paper: Paper::McGuire,
+        number: "Image 5, right",
+        title: "The cubes' volumes",
+        seen: "The cubes' shadow volumes, away from the light on all sides.",
+        instead: "an amphitheatre for the cathedral's inside",
+        scene: "grid",
+        view: |settings| settings.show = Show::Volumes,
+    },
+    Figure {
+        name: "m06",
+        paper: Paper::McGuire,
+        number: "Image 6",
+        title: "Which cubes need caps",
+        seen: "From behind the grid, towards the light: blue cubes are counted by their sides alone, and only the red one, which may shade the eye, needs caps.",
+        instead: "an amphitheatre for the cathedral's inside; our own colours for the cases",
+        scene: "grid",
+        view: |settings| {
+            settings.show = Show::Cases;
+            look(settings, [-2.89, 3.24, -0.94], [1.807, 1.55, 0.587]);
+        },
+    },
+    Figure {
+        name: "m07",
+        paper: Paper::McGuire,
+        number: "Image 7",
+        title: "Three coloured lights, and one light's volumes",
+        seen: "Light is added where no volume is, so a shadow of one light takes the colour of the others.",
+        instead: "a Gothic nave and pilgrims of our own",
+        scene: "cathedral",
+        view: |settings| {
+            settings.show = Show::Volumes;
+            settings.light = 2;
+            camera(settings, "choir");
+        },
+    },
+    Figure {
+        name: "l01a",
+        paper: Paper::Lengyel,
+        number: "Uncapped shadow volumes",
+        title: "Depth-pass: sides alone",
+        seen: "With the eye outside every volume the sides do, counted in front of each surface.",
+        instead: "",
+        scene: "eye-in-shadow",
+        view: |settings| {
+            settings.technique = Technique::ZPass;
+            settings.show = Show::Stencil;
+            camera(settings, "beside");
+        },
+    },
+    Figure {
+        name: "l01b",
+        paper: Paper::Lengyel,
+        number: "Capped shadow volumes",
+        title: "Depth-fail: sides and caps",
+        seen: "From within a shadow the same volumes, closed at both ends, are counted behind each surface, to the same numbers.",
+        instead: "",
+        scene: "eye-in-shadow",
+        view: |settings| {
+            settings.technique = Technique::ZFail;
+            settings.show = Show::Stencil;
+        },
+    },
+    Figure {
+        name: "l02",
+        paper: Paper::Lengyel,
+        number: "Scissor optimization",
+        title: "A light's scissor rectangle",
+        seen: "From above: the part of the view that the light's range takes up, outside of which nothing is drawn for it.",
+        instead: "",
+        scene: "courtyard",
+        view: |settings| {
+            settings.show = Show::Bounds;
+            settings.light = 2;
+        },
+    },
+    Figure {
+        name: "b01",
+        paper: Paper::Beam,
+        number: "Demo picture",
+        title: "The tutorial's demo",
+        seen: "Turning cubes over a floor with the tutorial's own way: a volume for each polygon, and a dark quad where a caster counts.",
+        instead: "",
+        scene: "cubes",
+        view: |settings| settings.technique = Technique::Beam,
+    },
+    Figure {
+        name: "c01a",
+        paper: Paper::Csci4229,
+        number: "Z-pass",
+        title: "Z-pass with the eye in a shadow",
+        seen: "Light and shadow have changed places: counting in front starts from the wrong number.",
+        instead: "",
+        scene: "eye-in-shadow",
+        view: |settings| settings.technique = Technique::ZPass,
+    },
+    Figure {
+        name: "c01b",
+        paper: Paper::Csci4229,
+        number: "Z-fail",
+        title: "Z-fail from the same place",
+        seen: "Counted behind each surface, from infinity, where no eye ever is: right.",
+        instead: "",
+        scene: "eye-in-shadow",
+        view: |settings| settings.technique = Technique::ZFail,
+    },
+];
