@@ -117,7 +117,19 @@ fn shared_structs_have_the_same_layout() {
         "lit.wgsl",
         "Light",
         types::Light,
-        [position, inverse_range_squared, direction, cos_outer, intensity, inverse_cone_width, right, kind, slide, slide_scale]
+        [
+            position,
+            inverse_range_squared,
+            direction,
+            cos_outer,
+            intensity,
+            inverse_cone_width,
+            right,
+            kind,
+            slide,
+            slide_scale,
+            hand
+        ]
     );
     same_layout!("volume.wgsl", "Volume", types::Volume, [light_in_object, end_in_object, thrown, object, by_matrix, extrusion]);
     same_layout!("volume.wgsl", "Draw", types::Draw, [constant, light, swell]);
