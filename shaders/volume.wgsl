@@ -10,9 +10,10 @@ fn volume_vertex_mismatched(@location(0) vertex: vec4f, @builtin(instance_index)
     return VolumePoint(frame.clip_from_world * world);
 }
 
-// ZP+: a light cap as the light sees it through the near rectangle.
+// A light cap straight to clip space. ZP+: as the light sees it through the near rectangle. Planar shadows: as the eye
+// sees it on the plane that the light throws it onto.
 @vertex
-fn near_plane_vertex(@location(0) vertex: vec4f, @builtin(instance_index) first: u32) -> VolumePoint {
+fn thrown_vertex(@location(0) vertex: vec4f, @builtin(instance_index) first: u32) -> VolumePoint {
     return VolumePoint(volumes[volume_of(vertex, first)].thrown * vec4f(vertex.xyz, 1.0));
 }
 
@@ -34,6 +35,12 @@ fn volume_count_backs(@builtin(front_facing) front: bool) {
     if front {
         discard;
     }
+}
+
+// A planar shadow, where it is more than a mark in the stencil: premultiplied.
+@fragment
+fn projected() -> @location(0) vec4f {
+    return vec4f(draw.constant.rgb * draw.constant.a, draw.constant.a);
 }
 
 // Volumes as coloured glass: premultiplied, one layer a face.

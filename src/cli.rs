@@ -18,6 +18,7 @@ mod input;
 mod light_edit;
 mod lighting;
 mod mirrors;
+mod planar;
 mod playground;
 
 pub use command_line::render_command;
@@ -478,6 +479,8 @@ struct PictureArguments {
     halos: halo::HaloArguments,
     #[command(flatten)]
     csg: csg::CsgArguments,
+    #[command(flatten)]
+    planar: planar::PlanarArguments,
     /// The graphics adapter: part of its name
     #[arg(long, value_name = "SUBSTRING", allow_hyphen_values = true)]
     adapter: Option<String>,
@@ -506,6 +509,7 @@ impl PictureArguments {
                 mirrors: settings.mirrors.of_another_scene(),
                 halos: settings.halos.of_another_scene(),
                 csg: settings.csg.of_another_scene(),
+                planar: settings.planar.of_another_scene(),
                 adapter: settings.adapter,
                 shaders: settings.shaders,
                 ..Settings::default()
@@ -552,6 +556,7 @@ impl PictureArguments {
         self.mirrors.apply(&mut settings.mirrors)?;
         self.halos.apply(&mut settings.halos);
         self.csg.apply(&mut settings.csg)?;
+        self.planar.apply(&mut settings.planar)?;
         settings.adapter = self.adapter.clone().or(settings.adapter);
         settings.shaders = self.shaders.clone().or(settings.shaders);
         check(&settings)?;

@@ -7,6 +7,7 @@
 mod casters;
 mod halos;
 mod off_mirrors;
+mod planar;
 mod reflections;
 mod rounds;
 mod shown;
@@ -33,6 +34,7 @@ use crate::techniques::culling::{Interest, around};
 use crate::techniques::labels::Named;
 use crate::techniques::mirrors::{self, Mirrors};
 use crate::techniques::own_bits::{Round, Shining};
+use crate::techniques::planar::{self as planar_shadows, Receivers};
 use crate::techniques::surfaces::Known;
 use crate::techniques::{self, bounds, depth_bounds, playground, show, surfaces, wide};
 
@@ -104,6 +106,8 @@ pub fn stage_frame(
     if !settings.time.is_finite() || settings.time < 0.0 {
         return Err(StageError::Time(settings.time));
     }
+    let in_force = planar_shadows::in_force(&failures::while_on(settings));
+    let settings = &in_force;
     let mut pose = pose(scene, settings.time, settings.animation.unwrap_or(scene.default_animation), &settings.lights);
     if settings.mirrors.light == MirrorLight::Virtual {
         pose.add_lights_off(scene, &scene.mirrors_in_force(&settings.mirrors).0);
@@ -124,7 +128,7 @@ pub fn stage_frame(
         camera.shift = beside * 2.0 / DVec2::new(width.into(), height.into());
     }
     let gather = (frames > 1).then_some(Gather { frame, frames });
-    let mut plan = plan(&failures::while_on(settings), scene, &pose, camera, capabilities, gather);
+    let mut plan = plan(settings, scene, &pose, camera, capabilities, gather);
     if let Some(failure) = settings.failure {
         failures::spoil(failure, &mut plan);
     }
@@ -160,6 +164,7 @@ pub fn plan(
     let groups = surfaces::opaque_groups(frame.known(), frame.view(), frame.plan.size, frame.texturing());
 
     match settings.show {
+        Show::Stencil | Show::Shadow if frame.is_planar() => frame.show_planar(&groups, settings.show == Show::Stencil),
         Show::Stencil | Show::Shadow => {
             let rounds::Counted { count, points_mask } = frame.count_shown(settings.light);
             let shows_stencil = settings.show == Show::Stencil;
@@ -223,10 +228,11 @@ pub fn plan(
         Show::Complexity => frame.draw_complexity(&groups),
         Show::Final | Show::Volumes | Show::Wireframe => {
             let darkens = techniques::row(settings.technique).darkens;
-            let mut rounds = frame.rounds();
+            let mut rounds = if frame.is_planar() { Vec::new() } else { frame.rounds() };
             let transparent = surfaces::transparent(frame.known(), frame.view(), whole);
             let one_light = rounds.iter().map(|round| round.lights.len()).sum::<usize>() <= 1;
-            if one_light && darkens.is_none() && transparent.is_empty() && frame.may_draw_directly() {
+            let in_turn = darkens.is_none() && !frame.is_planar();
+            if one_light && in_turn && transparent.is_empty() && frame.may_draw_directly() {
                 frame.draw_directly(rounds.pop(), &groups);
                 frame.label(Target::Direct);
                 return frame.plan;
@@ -235,6 +241,9 @@ pub fn plan(
             frame.start(rounds.first().map_or(0, |round| round.base));
             frame.draw_solid();
             frame.extend(surfaces::ambient(&groups, whole));
+            if frame.is_planar() {
+                frame.shine_planar(&groups.iter().collect::<Vec<_>>());
+            }
             for round in rounds {
                 frame.start_round(&round);
                 frame.extend(round.steps);
@@ -279,6 +288,7 @@ struct Frame<'a> {
     mirrors: Mirrors,
     /// Of each instance, whether it has a halo.
     glowing: Vec<bool>,
+    receivers: Receivers,
     /// What the stencil was cleared to last, and which bits are no longer so.
     stored: u8,
     used: u8,
@@ -329,11 +339,14 @@ impl<'a> Frame<'a> {
             breaks: None,
         };
         let outlook = Outlook::new(scene, pose, (0, &plan.views[0]), None);
-        let (sights, mirrors) = (Vec::new(), Mirrors::default());
+        let (sights, mirrors, receivers) = (Vec::new(), Mirrors::default(), Receivers::default());
         let glowing = scene.glowing(&settings.halos.edits);
-        let mut frame = Self { settings, scene, pose, capabilities, outlook, sights, mirrors, glowing, stored: 0, used: 0, plan };
+        let (stored, used) = (0, 0);
+        let mut frame =
+            Self { settings, scene, pose, capabilities, outlook, sights, mirrors, receivers, glowing, stored, used, plan };
         solids::note(&mut frame.plan, settings, scene, pose);
         frame.plan_views();
+        frame.plan_receivers();
         frame.choose_bits();
         frame
     }
@@ -349,6 +362,10 @@ impl<'a> Frame<'a> {
             self.plan.budget = self.plan.budget.with_halos();
         }
         if !self.settings.culling.depth_bounds || techniques::row(self.settings.technique).darkens.is_some() {
+            return;
+        }
+        if self.is_planar() {
+            self.plan.notes.push("no depth bounds here: shadows are planar".into());
             return;
         }
         if self.plan.budget.mirror_mask != 0 {

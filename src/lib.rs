@@ -36,7 +36,7 @@
 //!
 //! | room | what is in it |
 //! | --- | --- |
-//! | [`geometry`] | pure mathematics: bounds, the near pyramid, topology, silhouettes, volumes, the eye's count, mirrors and views in them |
+//! | [`geometry`] | pure mathematics: bounds, the near pyramid, topology, silhouettes, volumes, the eye's count, mirrors and views in them, planar shadows |
 //! | [`scene`] | the scene and its pose, glTF import, the mesh doctor, the stock scenes |
 //! | [`frame`] | the plan's types: steps, named states, the stencil's bits, camera, validation |
 //! | [`techniques`] | one file each and a table of them: how a caster's volume is counted, and why |
@@ -93,6 +93,14 @@
 //! ([`techniques::off_mirror`]). Volumes may be thrown from a part of a caster, and from its reflection
 //! ([`frame::Piece`]). Where a triangle was cut its light cap differs from the drawn surface in last bits; such caps are
 //! pushed back a hair ([`frame::Method::ZFailCut`]).
+//! # Planar shadows
+//!
+//! Where shadows are planar ([`settings::PlanarMode`]) nothing is counted: a caster's light cap is thrown onto the plane of a
+//! receiver by one matrix ([`geometry::planar_shadow`]), and so are planned with the volumes, whose machinery draws them.
+//! Depth has no say in where they fall. A receiver's visible pixels hold a value of their own in the stencil, and every
+//! shadow asks for it and takes it away, or moves it on: so it leaves no receiver, and no pixel is met twice. What makes
+//! a point beyond the light no shadow is the clip volume itself; what lies behind a receiver is cut on the CPU, in double
+//! precision. `director/planar.rs` has the order of each mode, for the eye's view and those in mirrors alike.
 //!
 //! `--show cases`, `bounds`, `overflow` and the rest read what the plan decided; none decides by itself.
 //!
@@ -125,6 +133,8 @@
 //!         B [shadow count ]      within depth bounds: B, beyond the light's bounds, nothing is counted
 //!         d c b a [ count ]      points of a light with a size, each with a bit of its own
 //!                   T g g        when all light is there: T, an object with a halo; g, the pixel glows
+//!         r r r r r r r s        receivers of planar shadows: which one; shadowed, or lit already
+//!         r r V [ count ]        the same beside volumes: V, shadowed by what is projected
 //! ```
 //!
 //! [`frame::stencil`] owns them; no other code writes a mask. Counting wraps, so the order of faces does

@@ -11,6 +11,7 @@ mod culling;
 mod halo;
 mod lighting;
 mod mirrors;
+mod planar;
 mod playground;
 
 pub use complexity::Complexity;
@@ -20,6 +21,7 @@ pub use culling::{Culling, LightBounds};
 pub use halo::{Halos, MAX_HALO_WIDTH};
 pub use lighting::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
 pub use mirrors::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorLight, MirrorMode, MirrorPlace, Mirrors};
+pub use planar::{HybridPart, Planar, PlanarMode};
 
 pub use playground::{Api, Board, Face, Facing, LONGEST_NAME, MOST_SHAPES, Playground, Shape, ShapeKind};
 
@@ -85,6 +87,8 @@ pub struct Settings {
     pub halos: Halos,
     /// Two solids put together.
     pub csg: Csg,
+    /// Which surfaces take planar shadows, and how those are drawn.
+    pub planar: Planar,
     /// Part of the name of the adapter to use.
     pub adapter: Option<String>,
     /// Shaders are read from here instead of the program, and again when they change.
@@ -118,6 +122,7 @@ impl Default for Settings {
             mirrors: Mirrors::default(),
             halos: Halos::default(),
             csg: Csg::default(),
+            planar: Planar::default(),
             adapter: None,
             shaders: None,
         }

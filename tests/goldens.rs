@@ -15,7 +15,9 @@ use image::RgbaImage;
 use obscura::figures;
 use obscura::headless::render::open;
 use obscura::scene::stock;
-use obscura::settings::{LightEdit, MirrorLight, MirrorMode, Mirrors, Operation, Settings, Show, Technique};
+use obscura::settings::{
+    HybridPart, LightEdit, MirrorLight, MirrorMode, Mirrors, Operation, PlanarMode, Settings, Show, Technique,
+};
 
 const SIZE: [u32; 2] = [240, 135];
 
@@ -95,6 +97,26 @@ fn every_mirror_mode_looks_as_it_did() {
             let shot = stage.shoot(&settings, &scene);
             faults.extend(compare(&format!("{}-mirrors-{}", row.name, mode.name()), &shot.image).err());
         }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn every_planar_mode_looks_as_it_did() {
+    let mut stage = Stage::new();
+    let mut faults = Vec::new();
+    let scene = stock::build("figure7").unwrap().unwrap();
+    stage.set_scene(&scene);
+    let mut settings = Settings { size: SIZE, time: 1.0, ..Settings::default() };
+    for mode in PlanarMode::ALL.into_iter().filter(|mode| *mode != PlanarMode::Off) {
+        settings.planar.mode = mode;
+        let shot = stage.shoot(&settings, &scene);
+        faults.extend(compare(&format!("figure7-planar-{}", mode.name()), &shot.image).err());
+    }
+    for part in [HybridPart::Volumes, HybridPart::Planar] {
+        settings.planar.hybrid = part;
+        let shot = stage.shoot(&settings, &scene);
+        faults.extend(compare(&format!("figure7-planar-hybrid-{}", part.name()), &shot.image).err());
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }

@@ -15,7 +15,9 @@ use obscura::frame::stencil::{StencilOp, StencilState};
 use obscura::frame::validate::validate;
 use obscura::frame::{Action, Capabilities, Draw, DrawSet, FramePlan, Method, Program};
 use obscura::scene::{AlphaMode, LightKind, Material, Scene, Transform, stock};
-use obscura::settings::{AreaMode, CameraChoice, Csg, LightEdit, MirrorLight, Operation, Settings, Show, Technique};
+use obscura::settings::{
+    AreaMode, CameraChoice, Csg, LightEdit, MirrorLight, MirrorPlace, Operation, PlanarMode, Settings, Show, Technique,
+};
 
 /// Two lights, one with a range; a solid, a mirrored solid, a sheet, a masked and a blended one.
 fn varied() -> Scene {
@@ -110,6 +112,18 @@ fn light_off_a_mirror_plans_as_written() {
     let mut settings = Settings { technique: Technique::Auto, size: [320, 180], ..Settings::default() };
     settings.mirrors.light = MirrorLight::Virtual;
     assert_text("figure3-light-off-mirrors", &plan(&scene, &settings));
+}
+
+/// The floor takes planar shadows, and what stands in it is cut there.
+#[test]
+fn planar_shadows_plan_as_written() {
+    let scene = varied();
+    for mode in [PlanarMode::Multi, PlanarMode::StencilRelight, PlanarMode::Hybrid] {
+        let mut settings = Settings { size: [320, 180], ..Settings::default() };
+        settings.planar.mode = mode;
+        settings.planar.edits.insert(MirrorPlace { node: 0, primitive: 0 }, true);
+        assert_text(&format!("planar-{}", mode.name()), &plan(&scene, &settings));
+    }
 }
 
 /// With depth bounds: the second light has an end.

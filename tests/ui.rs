@@ -17,8 +17,8 @@ use obscura::frame::{Camera, Capabilities, FramePlan};
 use obscura::scene::stock::StockScene;
 use obscura::scene::{self, Light, LightKind, Node, Pose, PosedLight, Scene};
 use obscura::settings::{
-    CameraChoice, Complexity, Csg, Failure, Halos, LastBounce, LightEdit, MirrorMode, MirrorPlace, Mirrors, Operation,
-    SceneChoice, Settings, Show, Technique,
+    CameraChoice, Complexity, Csg, Failure, Halos, HybridPart, LastBounce, LightEdit, MirrorMode, MirrorPlace, Mirrors,
+    Operation, Planar, PlanarMode, SceneChoice, Settings, Show, Technique,
 };
 use obscura::techniques::TABLE;
 use obscura::techniques::cases::{self, Class};
@@ -312,6 +312,53 @@ fn halos_are_switched_for_each_object() {
         harness.run_steps(3);
         assert_eq!(settings(&harness).halos, Halos::default());
     }
+}
+
+#[test]
+fn planar_shadows_are_chosen_and_told() {
+    let mut harness = open(reflecting("figure7"));
+    let default = Planar::default();
+    let planar = |harness: &Harness<'_, Bench>| settings(harness).planar;
+    for (title, mode) in [
+        ("Naive", PlanarMode::Naive),
+        ("Stencil, blended", PlanarMode::StencilBlend),
+        ("Stencil, relit", PlanarMode::StencilRelight),
+        ("Many lights", PlanarMode::Multi),
+        ("Hybrid", PlanarMode::Hybrid),
+    ] {
+        click(&mut harness, title);
+        assert_eq!(planar(&harness), Planar { mode, ..default.clone() });
+    }
+    click(&mut harness, "Volumes");
+    assert_eq!(planar(&harness).hybrid, HybridPart::Volumes);
+    click(&mut harness, "Both");
+    click(&mut harness, "No planar shadows");
+    assert_eq!(planar(&harness), default);
+    for receiver in harness.state().scene.receivers.clone() {
+        harness.get_by_role_and_label(Role::CheckBox, &receiver.name).click();
+        harness.run_steps(3);
+        let place = MirrorPlace { node: receiver.node, primitive: receiver.primitive };
+        assert_eq!(planar(&harness).edits, [(place, false)].into());
+        harness.get_by_role_and_label(Role::CheckBox, &receiver.name).click();
+        harness.run_steps(3);
+        assert_eq!(planar(&harness), default, "{}", receiver.name);
+    }
+    // A click takes the tile away and brings it back; Z begins and Esc ends that.
+    let tile = harness.state().scene.receivers[0].clone();
+    let place = MirrorPlace { node: tile.node, primitive: tile.primitive };
+    let on_tile = DVec3::new(0.1, 0.0, 1.1);
+    click_at(&mut harness, on_tile);
+    assert_eq!(planar(&harness), default, "a click alone marks nothing");
+    press(&mut harness, Key::Z);
+    for edits in [[(place, false)].into(), default.edits.clone()] {
+        click_at(&mut harness, on_tile);
+        assert_eq!(planar(&harness).edits, edits);
+        let actions = std::mem::take(&mut harness.state_mut().actions);
+        assert!(matches!(&actions[..], [Action::Tell(Notice { topic: Topic::Receivers, .. })]), "{actions:?}");
+    }
+    press(&mut harness, Key::Escape);
+    click_at(&mut harness, on_tile);
+    assert_eq!(planar(&harness), default);
 }
 
 /// Clicks where a point of the world is on the picture.

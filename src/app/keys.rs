@@ -33,6 +33,8 @@ pub enum Command {
     ToggleSamples,
     /// Clicks on the picture make mirrors, or do not any more.
     MakeMirrors,
+    /// Clicks on the picture mark receivers of planar shadows, or do not any more.
+    MarkReceivers,
     /// Light icons over the picture.
     ToggleIcons,
     /// The side panel.
@@ -151,6 +153,12 @@ pub static TABLE: &[Row] = &[
         "clicks make mirrors: a flat surface becomes one, a mirror none; again to end",
         &[press(Key::X, Command::MakeMirrors)],
     ),
+    row(
+        Group::Picture,
+        "Z",
+        "clicks mark receivers of planar shadows: a flat surface becomes one, a receiver none; again to end",
+        &[press(Key::Z, Command::MarkReceivers)],
+    ),
     row(Group::Camera, "drag", "turn about the target (orbit), or look around (fly)", &[]),
     row(Group::Camera, "right drag", "move sideways with the target", &[]),
     row(Group::Camera, "wheel", "nearer, farther (orbit); flying speed (fly)", &[]),
@@ -186,7 +194,12 @@ pub static TABLE: &[Row] = &[
     ),
     row(Group::Window, "Ctrl+C", "copy the command that draws this picture", &[ctrl(Key::C, Command::CopyCommand)]),
     row(Group::Window, "Ctrl+O", "type or paste the path of a file to open", &[ctrl(Key::O, Command::OpenPath)]),
-    row(Group::Window, "Esc", "close the help, leave a field, make no more mirrors", &[press(Key::Escape, Command::Close)]),
+    row(
+        Group::Window,
+        "Esc",
+        "close the help, leave a field, make no more mirrors or receivers",
+        &[press(Key::Escape, Command::Close)],
+    ),
     row(Group::Window, "Ctrl+Q", "quit", &[ctrl(Key::Q, Command::Quit)]),
 ];
 

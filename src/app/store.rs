@@ -147,6 +147,7 @@ pub fn turn_to(settings: &mut Settings, scene: SceneChoice) {
     settings.lights = defaults.lights;
     settings.exposure = defaults.exposure;
     settings.mirrors.edits = defaults.mirrors.edits;
+    settings.planar.edits = defaults.planar.edits;
 }
 
 /// The file, and what is to be written to it.

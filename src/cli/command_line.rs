@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::{
     complexity as complexity_options, counting as counting_options, csg as csg_options, culling as culling_options,
     halo as halo_options, light_edit, lighting as lighting_options, mirrors as mirror_options, needs_dot,
-    playground as playground_options,
+    planar as planar_options, playground as playground_options,
 };
 use crate::scene::AnimationChoice;
 use crate::settings::{CameraChoice, SceneChoice, Settings};
@@ -46,6 +46,7 @@ pub fn render_command(settings: &Settings) -> String {
         playground,
         halos,
         csg,
+        planar,
     } = settings;
     let default = Settings::default();
     let mut line = Line::default();
@@ -120,6 +121,7 @@ pub fn render_command(settings: &Settings) -> String {
     mirror_options::write(mirrors, &mut line);
     halo_options::write(halos, &mut line);
     csg_options::write(csg, &mut line);
+    planar_options::write(planar, &mut line);
     if let Some(adapter) = adapter {
         line.option("--adapter", adapter);
     }

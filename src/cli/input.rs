@@ -3,7 +3,7 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::{counting, csg, halo, lighting, mirrors, playground};
+use super::{counting, csg, halo, lighting, mirrors, planar, playground};
 use crate::scene::{AnimationChoice, LightKind, Scene};
 use crate::settings::{CameraChoice, LightEdit, MAX_SIZE, Settings, SlideChoice};
 
@@ -265,5 +265,6 @@ pub fn check_against(settings: &Settings, scene: &Scene) -> Result<(), InputErro
     }
     halo::check_against(&settings.halos, scene)?;
     csg::check_against(&settings.csg, scene)?;
-    mirrors::check_against(&settings.mirrors, scene)
+    mirrors::check_against(&settings.mirrors, scene)?;
+    planar::check_against(&settings.planar, scene)
 }

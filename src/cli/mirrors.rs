@@ -62,7 +62,8 @@ fn switch(on: bool) -> &'static str {
     if on { "on" } else { "off" }
 }
 
-fn edit(text: &str) -> Result<(MirrorPlace, bool), String> {
+/// A surface, switched: `NODE[:PRIMITIVE]=on|off`.
+pub(super) fn edit(text: &str) -> Result<(MirrorPlace, bool), String> {
     let read = || {
         let (place, state) = text.split_once('=')?;
         let (node, primitive) = place.split_once(':').unwrap_or((place, "0"));
@@ -98,9 +99,14 @@ pub(super) fn write(mirrors: &Mirrors, line: &mut Line) {
     if *light != default.light {
         line.option("--mirror-light", light.name());
     }
-    for (MirrorPlace { node, primitive }, on) in edits {
-        line.option("--mirror", &format!("{node}:{primitive}={}", switch(*on)));
+    for (place, on) in edits {
+        line.option("--mirror", &edited(place, *on));
     }
+}
+
+/// What [`edit`] reads.
+pub(super) fn edited(MirrorPlace { node, primitive }: &MirrorPlace, on: bool) -> String {
+    format!("{node}:{primitive}={}", switch(on))
 }
 
 /// Says whether `mirrors` can be drawn on some scene.

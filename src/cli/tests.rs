@@ -10,9 +10,9 @@ use proptest::prelude::*;
 use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
 use crate::settings::{
-    Accumulation, AreaMode, Board, Complexity, Counting, Csg, Culling, Halos, LEAST_TEXTURE, LastBounce, LightBounds, Lighting,
-    MAX_AREA_SAMPLES, MAX_BOUNCES, MAX_COUNT_BITS, MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE, MirrorLight, MirrorMode,
-    MirrorPlace, Mirrors, Operation, Overflow, Playground, SlideChoice, Texturing, boards,
+    Accumulation, AreaMode, Board, Complexity, Counting, Csg, Culling, Halos, HybridPart, LEAST_TEXTURE, LastBounce, LightBounds,
+    Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES, MAX_COUNT_BITS, MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE, MirrorLight, MirrorMode,
+    MirrorPlace, Mirrors, Operation, Overflow, Planar, PlanarMode, Playground, SlideChoice, Texturing, boards,
 };
 
 fn command(line: &str) -> Result<Command, InputError> {
@@ -53,6 +53,7 @@ fn every_argument_reaches_its_setting() {
          --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on \
          --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --mirror-texture 77 --mirror-light virtual --least-pixels 25 --mirror 12=on --mirror 3:1=off \
          --halo 4 --halo 5=off --halo-color 0.5,0,1 --halo-width 2.5 --csg a-minus-b --csg-a 6 --csg-b 9 \
+         --planar hybrid --hybrid planar --receiver 4=on --receiver 5:2=off \
          --light-edit 1:on=true --adapter llvm --shaders wgsl",
     );
     let edit = LightEdit {
@@ -111,6 +112,14 @@ fn every_argument_reaches_its_setting() {
         },
         halos: Halos { edits: BTreeMap::from([(4, true), (5, false)]), color: Vec3::new(0.5, 0.0, 1.0), width: 2.5 },
         csg: Csg { operation: Some(Operation::AMinusB), a: Some(6), b: Some(9) },
+        planar: Planar {
+            mode: PlanarMode::Hybrid,
+            hybrid: HybridPart::Planar,
+            edits: BTreeMap::from([
+                (MirrorPlace { node: 4, primitive: 0 }, true),
+                (MirrorPlace { node: 5, primitive: 2 }, false),
+            ]),
+        },
         shaders: Some("wgsl".into()),
     };
     assert_eq!(got, expected);
@@ -392,6 +401,9 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         |(on, light_bounds, caster_scissors, depth_bounds)| Culling { on, light_bounds, caster_scissors, depth_bounds },
     );
     let place = (any::<usize>(), any::<usize>()).prop_map(|(node, primitive)| MirrorPlace { node, primitive });
+    let edits = || prop::collection::btree_map(place.clone(), any::<bool>(), 0..4);
+    let planar = (prop::sample::select(&PlanarMode::ALL[..]), prop::sample::select(&HybridPart::ALL[..]), edits())
+        .prop_map(|(mode, hybrid, edits)| Planar { mode, hybrid, edits });
     let mirrors = (
         prop::sample::select(&MirrorMode::ALL[..]),
         1..=MAX_BOUNCES,
@@ -400,7 +412,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         LEAST_TEXTURE..=MOST_TEXTURE,
         any::<u32>(),
         prop::sample::select(&MirrorLight::ALL[..]),
-        prop::collection::btree_map(place, any::<bool>(), 0..4),
+        edits(),
     )
         .prop_map(|(mode, bounces, last, fresnel, texture, least_pixels, light, edits)| Mirrors {
             mode,
@@ -426,7 +438,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         prop::collection::btree_map(any::<usize>(), any_edit(), 0..4),
         lighting,
         (1..=MAX_COUNT_BITS, prop::sample::select(&Overflow::ALL[..])).prop_map(|(bits, overflow)| Counting { bits, overflow }),
-        (culling, mirrors, halos, csg),
+        (culling, mirrors, halos, csg, planar),
         prop::option::of(word()),
         prop::option::of(word().prop_filter("a folder", |path| !path.is_empty()).prop_map(PathBuf::from)),
         (
@@ -442,7 +454,15 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         |(
             (scene, floor, technique, show, light, size, samples),
             (camera, fov, far, time, animation, smooth_terminator, exposure),
-            (lights, lighting, counting, (culling, mirrors, halos, csg), adapter, shaders, (failure, complexity, playground)),
+            (
+                lights,
+                lighting,
+                counting,
+                (culling, mirrors, halos, csg, planar),
+                adapter,
+                shaders,
+                (failure, complexity, playground),
+            ),
         )| Settings {
             scene,
             floor,
@@ -469,6 +489,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             mirrors,
             halos,
             csg,
+            planar,
             shaders,
         },
     )

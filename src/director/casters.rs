@@ -15,7 +15,7 @@ use crate::settings::Show;
 use crate::techniques::counting::LightCount;
 use crate::techniques::culling::{Audience, Interest, common, light_rect};
 use crate::techniques::surfaces::Place;
-use crate::techniques::{self, Caster, counting, show};
+use crate::techniques::{self, Caster, counting, planar, show};
 
 impl Frame<'_> {
     /// The pixels a light can reach; `None` where its bounds are off screen.
@@ -52,7 +52,10 @@ impl Frame<'_> {
             (Some(scissor), Some(off)) => Some(self.count_off_mirror(row, light, off, scissor)),
             (Some(scissor), None) => {
                 let mut volumes = std::mem::take(&mut self.plan.volumes);
-                let casters = self.casters(light, scissor);
+                let mut casters = self.casters(light, scissor);
+                if let Some(casters) = casters.as_mut().filter(|_| self.is_planar()) {
+                    casters.retain(planar::is_cut_out);
+                }
                 let count = casters.map(|casters| counting::count_light(row, &casters, &self.ask(light, scissor), &mut volumes));
                 self.plan.volumes = volumes;
                 count

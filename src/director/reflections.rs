@@ -13,6 +13,7 @@ use crate::frame::{Action, Clear, Step, Target};
 use crate::scene::AlphaMode;
 use crate::settings::{Show, Texturing};
 use crate::techniques::above::above_rooms;
+use crate::techniques::counting::LightCount;
 use crate::techniques::mirrors::{self, Cover};
 use crate::techniques::own_bits::{Round, Shining};
 use crate::techniques::surfaces::{self, SurfaceGroup, Tint};
@@ -57,6 +58,7 @@ impl Frame<'_> {
             mesh.primitives.iter().any(|part| self.scene.materials[part.material].alpha == AlphaMode::Blend)
         };
         lights <= 1
+            && !self.is_planar()
             && !self.unbounded()
             && !self.textured()
             && self.mirrors.all_perfect()
@@ -131,7 +133,12 @@ impl Frame<'_> {
                 self.push(step);
             }
         }
-        for round in self.rounds() {
+        if self.is_planar() {
+            let open = stage.open.iter().map(|(group, _)| group);
+            self.shine_planar(&stage.plain.iter().chain(&stage.grey).chain(open).collect::<Vec<_>>());
+        }
+        let rounds = if self.is_planar() { Vec::new() } else { self.rounds() };
+        for round in rounds {
             self.start_round(&round);
             let Round { steps, lights, .. } = round;
             self.extend(steps);
@@ -321,20 +328,23 @@ impl Frame<'_> {
     /// One light's count, or verdict, in every view.
     fn draw_values(&mut self) {
         let (light, stencil) = (self.settings.light, self.settings.show == Show::Stencil);
-        let rounds::Counted { count, points_mask } = self.count_shown(light);
+        let planar = self.is_planar();
+        let rounds::Counted { count, points_mask } = if planar { rounds::Counted::default() } else { self.count_shown(light) };
         let color = if stencil { [0.0; 4] } else { [MID_GREY, MID_GREY, MID_GREY, 1.0] };
         self.clear_all(color, count.base);
         let budget = count.budget;
         self.draw_value(count);
         let whole = self.whole();
-        if stencil {
+        if planar {
+            self.push(self.planar_picture(stencil));
+        } else if stencil {
             self.push(show::stencil_colors(budget, points_mask, whole));
         } else {
             self.push(show::copy(whole));
         }
     }
 
-    fn draw_value(&mut self, count: crate::techniques::counting::LightCount) {
+    fn draw_value(&mut self, count: LightCount) {
         let (whole, light, stencil) = (self.whole(), self.settings.light, self.settings.show == Show::Stencil);
         let stage = self.stage(Texturing::EachLight);
         let all: Vec<&SurfaceGroup> =
@@ -346,14 +356,16 @@ impl Frame<'_> {
             self.extend(all.iter().filter(|group| !group.is_laid()).map(|group| surfaces::lay(group, whole)).collect());
         }
         self.extend(count.steps);
-        if !stencil && let Some(scissor) = self.light_rect(light) {
+        if self.is_planar() {
+            self.planar_values(&all, stencil);
+        } else if !stencil && let Some(scissor) = self.light_rect(light) {
             for group in &all {
                 self.extend(surfaces::verdict(std::slice::from_ref(*group), light, scissor, count.budget));
             }
         }
         let color = if stencil { [0.0; 4] } else { [MID_GREY, MID_GREY, MID_GREY, 1.0] };
         let draw = |frame: &mut Self| {
-            let count = frame.count(light);
+            let count = if frame.is_planar() { LightCount::default() } else { frame.count(light) };
             frame.reset_view("reset the count", "This view counts from how many volumes hold its own eye.", count.base);
             frame.draw_value(count);
         };

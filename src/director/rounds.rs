@@ -13,6 +13,7 @@ use crate::techniques::own_bits::{self, Round};
 use crate::techniques::{self, counting};
 
 /// What one light's shadows are shown by.
+#[derive(Default)]
 pub(super) struct Counted {
     /// Of the light that is looked at.
     pub count: LightCount,
@@ -120,7 +121,8 @@ impl Frame<'_> {
     /// For what is added without having been counted: once to each pixel, marked in a bit that nobody used since the stencil
     /// was cleared.
     pub(super) fn unused_bit(&mut self, light: Option<usize>) -> StencilState {
-        let taken = self.plan.budget.beyond_mask | self.plan.budget.mirror_mask;
+        let BitBudget { beyond_mask, mirror_mask, receiver_mask, .. } = self.plan.budget;
+        let taken = beyond_mask | mirror_mask | receiver_mask;
         let free = |frame: &Self| !(frame.used | frame.stored | taken);
         if free(self) == 0 {
             self.reset_stencil(light, 0);

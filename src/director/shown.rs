@@ -2,7 +2,7 @@
 
 use super::Frame;
 use crate::frame::plan::View;
-use crate::frame::{Camera, Target};
+use crate::frame::{Camera, Method, Target};
 use crate::settings::Technique;
 use crate::techniques::above::{Above, above};
 use crate::techniques::cases::{self, Class};
@@ -13,7 +13,8 @@ use crate::techniques::{self, bounds, complexity, show};
 impl Frame<'_> {
     /// Makes sure that the light whose volumes are shown has some, even when nothing counted them.
     pub(super) fn plan_glass(&mut self, light: usize) {
-        if !self.plan.volumes.iter().any(|volume| volume.view == 0 && volume.light == light) {
+        if !self.plan.volumes.iter().any(|volume| volume.view == 0 && volume.light == light && volume.method != Method::Projected)
+        {
             self.count_by(techniques::row(Technique::ZPass), light);
         }
     }

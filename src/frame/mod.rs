@@ -14,7 +14,9 @@ pub mod validate;
 
 pub use camera::{Camera, CameraError};
 pub use capabilities::{Capabilities, Lack, WideCounts};
-pub use plan::{Case, Cutout, CutoutShape, FramePlan, Gather, Method, Piece, Reason, Reflections, View, VolumePlan, Window};
+pub use plan::{
+    Case, Cutout, CutoutShape, FramePlan, Gather, Method, Piece, Projection, Reason, Reflections, View, VolumePlan, Window,
+};
 /// What `show surfaces` draws a surface in, display values: of the pixels of view `v` that show instance `i` of `n`,
 /// the number is v n + i + 1; 0 is no surface. No two numbers below 2^24 have one colour.
 #[must_use]

@@ -11,7 +11,7 @@ use super::validate::Rule;
 use crate::geometry::cutout::{CutoutPlane, Throw};
 use crate::geometry::planar::reflection;
 use crate::geometry::volume::Outline;
-use crate::geometry::{Enclosure, Flaw, VolumeParts};
+use crate::geometry::{Enclosure, Flaw, LitPlane, VolumeParts};
 use crate::settings::Accumulation;
 
 /// Everything that one frame does, in order: ids and values only.
@@ -197,6 +197,9 @@ pub struct VolumePlan {
     pub turns: bool,
     /// The front's winding on screen.
     pub winding: Winding,
+    /// What the caster itself is thrown onto, where that is done instead of counting a volume.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub projection: Option<Projection>,
     /// How it is built wrongly, where it is so on purpose.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flaw: Option<Flaw>,
@@ -260,6 +263,17 @@ impl Piece {
     pub fn is_whole(&self) -> bool {
         *self == Self::Whole
     }
+}
+
+/// A planar shadow: a caster's light cap, thrown onto the plane of a receiver (K section 4).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Projection {
+    /// Which takes it.
+    pub receiver: Surface,
+    /// Its plane, before the light and the view's eye.
+    pub onto: LitPlane,
+    /// Some of the caster's triangles are behind the plane, or in it: they are cut on it, or left out.
+    pub cut: bool,
 }
 
 /// M's three cases (M section 7, figure 4), by the caster's box.
@@ -335,6 +349,8 @@ pub enum Method {
     ZFailCompared,
     /// The same of a caster that was cut: the light cap lies a hair behind the surface that is drawn, which was not.
     ZFailCut,
+    /// No volume: the light cap thrown onto a receiver.
+    Projected,
     /// Nothing is drawn.
     Dropped,
 }
@@ -357,6 +373,7 @@ impl Method {
             Self::ZFailCut => "z-fail, cut",
             Self::ZPlus => "ZP+",
             Self::ZPlusMirrored => "ZP+, mirrored",
+            Self::Projected => "planar shadow",
             Self::Dropped => "left out",
         }
     }
@@ -409,6 +426,16 @@ pub enum Reason {
     Beam,
     /// The caster stands in the light's way to the mirror: its reflection stands in the way of the reflected light.
     BeforeMirror,
+    /// All of it lies on the light's side of the receiver.
+    OverReceiver,
+    /// The receiver's plane cuts it, or it lies in that plane in part.
+    AcrossReceiver,
+    /// It lies behind the receiver, or in its plane.
+    BehindReceiver,
+    /// It lies beyond the light.
+    BeyondLight,
+    /// The light lies in the receiver's plane.
+    LightInReceiver,
 }
 
 impl Reason {
@@ -437,6 +464,11 @@ impl Reason {
             Self::NearPlaneClear => "it throws no shadow on the near plane",
             Self::Beam => "the mirror's outline bounds the light that comes off it",
             Self::BeforeMirror => "the caster stands in the light's way to the mirror",
+            Self::OverReceiver => "the caster lies on the light's side of the receiver",
+            Self::AcrossReceiver => "the receiver's plane cuts the caster",
+            Self::BehindReceiver => "the caster lies behind the receiver, or in its plane",
+            Self::BeyondLight => "the caster lies beyond the light",
+            Self::LightInReceiver => "the light lies in the receiver's plane",
         }
     }
 }

@@ -16,12 +16,16 @@
 //!                   T g g        after all light: T, an object with a halo; g, how often the pixel glows
 //! ```
 //!
-//! All of them are zero where the light shines, so that one comparison with zero asks for all.
+//!         r r r r r r r s        which receiver of planar shadows; shadowed, or lit the round before
+//!         r r V [ count ]        the same beside volumes: V, shadowed by what is projected
+//!
+//! All of them (receivers' apart: [`receivers`]) are zero where the light shines, so that one comparison with zero asks for all.
 //!
 //! A light whose volumes could lie over one pixel more often than the field can tell apart is counted
 //! in batches ([`BitBudget::batched`]): after each, one full-screen step ([`StencilState::collapse`])
 //! turns every count that is not zero into the verdict bit and starts the field anew.
 
+mod receivers;
 mod solid;
 
 use serde::{Deserialize, Serialize};
@@ -51,6 +55,8 @@ pub struct BitBudget {
     /// The lowest three, or none: objects with halos, and what glows ([`crate::techniques::halo`]), when nothing is
     /// counted any more.
     pub halo_mask: u8,
+    /// Bits that tell receivers of planar shadows apart, or none ([`Self::receiver`]).
+    pub receiver_mask: u8,
 }
 
 impl Default for BitBudget {
@@ -78,6 +84,7 @@ impl BitBudget {
             bounded: false,
             mirror_mask: 0,
             halo_mask: 0,
+            receiver_mask: 0,
         }
     }
 
@@ -134,7 +141,7 @@ impl BitBudget {
     #[must_use]
     pub const fn of_point(count_bits: u32, own: u8) -> Self {
         let count_mask = ((1_u32 << count_bits) - 1) as u8;
-        Self { count_mask, verdict_mask: own, beyond_mask: 0, points_mask: own, bounded: false, mirror_mask: 0, halo_mask: 0 }
+        Self { count_mask, verdict_mask: own, points_mask: own, ..Self::of_bits(1) }
     }
 
     /// Whether the verdict bit is one point's own: all of its count ends up there.
@@ -153,7 +160,8 @@ impl BitBudget {
     /// What counting may ever write in a frame of this budget: with batches or without.
     #[must_use]
     pub const fn reserved(self) -> u8 {
-        self.shadow_mask() | self.batched().shadow_mask() | self.points_mask | self.halo_mask
+        let counted = self.shadow_mask() | self.batched().shadow_mask() | self.points_mask;
+        counted | self.halo_mask | self.receiver_mask
     }
 
     /// All that is zero where the light shines: the field, the verdict bit, and the bounds'; or a point's own
@@ -178,7 +186,7 @@ impl BitBudget {
         if self.is_points() {
             return self;
         }
-        let count_mask = self.count_mask & (highest(!(self.mirror_mask | self.beyond_mask)) - 1);
+        let count_mask = self.count_mask & (highest(!(self.mirror_mask | self.beyond_mask | self.receiver_mask)) - 1);
         Self { count_mask, verdict_mask: count_mask + 1, ..self }
     }
 }
@@ -560,6 +568,9 @@ impl StencilState {
                 Compare::Equal if self.read_mask != 0 && self.read_mask & !budget.mirror_mask == 0 => "in its view ".into(),
                 Compare::Equal if self.read_mask & !budget.mirror_mask == budget.beyond_mask && budget.beyond_mask != 0 => {
                     "within the bounds ".into()
+                }
+                Compare::Equal if budget.receiver_mask != 0 && self.read_mask & budget.receiver_mask == budget.receiver_mask => {
+                    "passes where the reference is the value ".into()
                 }
                 Compare::Equal if f.pass == IncrementWrap => "where nothing is tagged or glows ".into(),
                 other => format!("passes where the reference is {} ", compare_words(other)),

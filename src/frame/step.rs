@@ -278,6 +278,8 @@ pub enum Program {
     SolidMerge,
     /// The same, for every sample of several.
     SolidMergeEach,
+    /// Light caps thrown onto a receiver, in the constant.
+    Projected,
 }
 
 /// What a step draws, by number.

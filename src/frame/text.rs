@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::{Display, Formatter, Result};
 
-use super::plan::FramePlan;
+use super::plan::{FramePlan, Projection};
 use super::state::DepthBias;
 use super::stencil::BitBudget;
 use super::step::{Action, Draw, DrawSet, Part, Run};
@@ -26,6 +26,9 @@ impl Display for FramePlan {
         }
         if self.budget.mirror_mask != 0 {
             writeln!(f, "stencil: mirrors {:08b}", self.budget.mirror_mask)?;
+        }
+        if self.budget.receiver_mask != 0 {
+            writeln!(f, "stencil: receivers {:08b}", self.budget.receiver_mask)?;
         }
         if self.budget.points_mask != 0 {
             writeln!(f, "stencil: points' own bits {:08b}", self.budget.points_mask)?;
@@ -64,6 +67,17 @@ impl Display for FramePlan {
             }
             if let Some(end) = volume.end {
                 write!(f, "; ends where ({}) . x = {:.3}", end.truncate(), -end.w)?;
+            }
+            if let Some(Projection { receiver, onto, cut }) = volume.projection {
+                let cut = if cut { ", cut there" } else { "" };
+                write!(
+                    f,
+                    "; onto {}.{} where ({}) . x = {:.3}{cut}",
+                    receiver.instance,
+                    receiver.primitive,
+                    onto.plane.truncate(),
+                    -onto.plane.w
+                )?;
             }
             if let Some(cutout) = volume.cutout {
                 write!(f, "; {:?} cut-out, thrown with a share of {:.4}", cutout.shape, cutout.throw.share)?;

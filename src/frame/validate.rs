@@ -4,6 +4,7 @@
 mod fragments;
 mod halo;
 mod mirrors;
+mod planar;
 mod shapes;
 mod solid;
 
@@ -63,6 +64,7 @@ pub fn validate(plan: &FramePlan) -> Result<(), Fault> {
                 if clear.stencil.is_some() {
                     state.bounded = None;
                     state.owned.clear();
+                    state.receivers.clear();
                     state.shone = 0;
                     state.tagged = false;
                     state.fragments = false;
@@ -132,6 +134,8 @@ struct Progress {
     tagged: bool,
     /// How far the layer in a solid's own target is.
     layer: solid::Layer,
+    /// Receivers of planar shadows by their values, since the stencil was cleared.
+    receivers: BTreeMap<u8, planar::Tagged>,
     counts_set: bool,
     /// Whose volumes are counted beyond the stencil, since the counts were cleared.
     wide: Option<usize>,
@@ -144,6 +148,7 @@ impl Progress {
             view,
             counting: false,
             owned: BTreeMap::new(),
+            receivers: BTreeMap::new(),
             shone: 0,
             tagged: false,
             layer: solid::Layer::None,
@@ -216,6 +221,9 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
     }
     if let Some(checked) = halo::check(plan, draw, state).or_else(|| fragments::check(plan, draw, state)) {
         return checked;
+    }
+    if (stencil.read_mask | stencil.write_mask) & plan.budget.receiver_mask != 0 {
+        return planar::check(plan, draw, state);
     }
     if let DrawSet::Enclosure(_) = draw.set {
         return check_bounds(plan, draw, state);
@@ -296,8 +304,8 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
                     "depth compare Never is for dark caps and for light caps whose surface is surely there, and for nothing else",
                 );
             }
-            if volume.method == Method::Dropped {
-                return Err("it counts a volume that was dropped");
+            if matches!(volume.method, Method::Dropped | Method::Projected) {
+                return Err("it counts a volume that was dropped, or is none");
             }
         }
     } else if stencil.writes() {

@@ -1,4 +1,4 @@
-//! Pure math, no GPU and no scene: bounds, frusta, mesh topology, silhouettes, shadow volumes, mirrors.
+//! Pure math, no GPU and no scene: bounds, frusta, mesh topology, silhouettes, shadow volumes, mirrors, planar shadows.
 
 pub mod bounds;
 pub mod clip;
@@ -14,6 +14,7 @@ pub mod near_rectangle;
 pub mod outward;
 pub mod overlap;
 pub mod planar;
+pub mod planar_shadow;
 pub mod portion;
 pub mod reach;
 pub mod sight;
@@ -28,6 +29,7 @@ pub use enclosure::Enclosure;
 pub use eye_count::{EyeCount, holding_count};
 pub use flaw::Flaw;
 pub use frustum::NearPyramid;
+pub use planar_shadow::LitPlane;
 pub use portion::Portion;
 pub use reach::{BOX_EDGES, Body};
 pub use sight::{Reflected, Sight};

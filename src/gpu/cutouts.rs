@@ -4,15 +4,18 @@
 //! and the near ones are the drawn surface's to the last bit. A flattened silhouette is a new figure
 //! each frame: K's prism, its outline at z = 0 and again at z = 1, all of it placed by the volume's
 //! matrix. Such vertices have w = 0, which is what sends a vertex through the matrix.
+//!
+//! A caster that a receiver's plane cuts has new vertices too: its light cap, as far as it throws a planar shadow.
 
-use glam::{Mat4, Vec3, Vec4};
+use glam::{DVec4, Mat4, Vec3, Vec4};
 
 use crate::frame::{Cutout, CutoutShape};
 use crate::geometry::cutout::append_cutout;
 use crate::geometry::flatten::Flattener;
+use crate::geometry::planar_shadow::append_over;
 use crate::geometry::silhouette::silhouette;
 use crate::geometry::volume::{Caster, VolumeIndices, VolumeParts};
-use crate::geometry::{Facing, Portion};
+use crate::geometry::{Facing, LitPlane, Portion};
 
 /// Memory that cut-outs' volumes are built in, kept from frame to frame.
 #[derive(Default)]
@@ -42,6 +45,24 @@ impl CutoutScratch {
             self.vertices.extend(portion.welded.iter().map(|place| place.extend(w).to_array()));
         }
         first
+    }
+
+    /// Appends the light cap of `caster` as far as it lies over a plane: of its object space, heights in metres.
+    pub fn append_over(
+        &mut self,
+        caster: Caster<'_>,
+        light: Vec4,
+        onto: (DVec4, &LitPlane),
+        indices: &mut Vec<u32>,
+    ) -> (VolumeIndices, Option<u32>) {
+        let Caster { topology, welded, planes, .. } = caster;
+        self.facing.decide(topology, planes, welded, light);
+        let first = self.vertices.len();
+        append_over((topology, welded), self.facing.contributions(), onto, &mut self.vertices);
+        let start = indices.len() as u32;
+        indices.extend(0..(self.vertices.len() - first) as u32);
+        let light_cap_kept = start..indices.len() as u32;
+        (VolumeIndices { light_cap_kept, ..VolumeIndices::default() }, Some(first as u32))
     }
 
     /// Appends the volume thrown from a cut-out of `caster`. Also where its vertices start among

@@ -12,9 +12,10 @@ use super::portions::{self, Portions};
 use super::scene_buffers::SceneBuffers;
 use super::slides::Slides;
 use super::types::{Draw, Frame, Light, Object, Volume};
-use crate::frame::{DrawSet, FramePlan, Method, Part, View, VolumePart, VolumePlan, Window};
+use crate::frame::{DrawSet, FramePlan, Method, Part, Projection, View, VolumePart, VolumePlan, Window};
 use crate::geometry::ending::NEVER_ENDS;
 use crate::geometry::light_in_object;
+use crate::geometry::planar_shadow::shadow_matrix;
 use crate::geometry::volume::{Caster, Outline, VolumeIndex as _, VolumeIndices, VolumeParts, VolumeScratch};
 use crate::scene::{LightKind, Pose, PosedLight, Scene};
 use crate::settings::Accumulation;
@@ -286,6 +287,7 @@ impl FrameBuffers {
                     Method::ZPlus | Method::ZPlusMirrored => {
                         near_from_object(&plan.views[volume.view], &pose.lights[volume.light], &world_from_object)
                     }
+                    Method::Projected => projected_from_object(volume, plan, &pose.lights[volume.light], &world_from_object),
                     _ => volume.cutout.as_ref().map_or(Mat4::IDENTITY, thrown),
                 }
                 .to_cols_array_2d(),
@@ -322,18 +324,25 @@ impl FrameBuffers {
                 self.first_vertices.push(Some(first));
                 continue;
             }
-            let (indices, format, first_vertex) = match (&volume.cutout, volume.flaw) {
-                (Some(cutout), _) => {
+            let cut = volume.projection.filter(|projection| projection.cut);
+            let (indices, format, first_vertex) = match (cut, &volume.cutout, volume.flaw) {
+                (Some(Projection { onto, .. }), ..) => {
+                    let plane = in_object(onto.plane, &pose.world_from_object[node_index]);
+                    let (indices, first_vertex) =
+                        scratch.cutouts.append_over(caster, light, (plane, &onto), &mut scratch.indices);
+                    (indices, LONG, first_vertex)
+                }
+                (None, Some(cutout), _) => {
                     let (indices, first_vertex) = scratch.cutouts.append(caster, light, cutout, parts, &mut scratch.indices);
                     (indices, LONG, first_vertex)
                 }
-                (None, Some(flaw)) => {
+                (None, None, Some(flaw)) => {
                     (scratch.volume.append_flawed(flaw, caster, light, parts, &mut scratch.indices), LONG, None)
                 }
-                (None, None) if vertices.welded.len() * 2 <= u16::LIMIT => {
+                (None, None, None) if vertices.welded.len() * 2 <= u16::LIMIT => {
                     (scratch.volume.append(caster, light, parts, &mut scratch.short_indices), SHORT, None)
                 }
-                (None, None) => (scratch.volume.append(caster, light, parts, &mut scratch.indices), LONG, None),
+                (None, None, None) => (scratch.volume.append(caster, light, parts, &mut scratch.indices), LONG, None),
             };
             self.volume_indices.push((indices, format));
             self.first_vertices.push(first_vertex);
@@ -430,7 +439,8 @@ fn append(bytes: &mut Vec<u8>, uniform: &[u8]) {
 fn same_shape(plan: &FramePlan) -> Vec<usize> {
     let mut first = HashMap::new();
     let shape = |(number, volume): (usize, &VolumePlan)| {
-        let plain = volume.cutout.is_none() && volume.flaw.is_none() && volume.method != Method::Dropped;
+        let whole = volume.cutout.is_none() && volume.projection.is_none_or(|projection| !projection.cut);
+        let plain = whole && volume.flaw.is_none() && volume.method != Method::Dropped;
         let of = (volume.instance, volume.light, volume.reflected.is_some(), portions::key(&volume.piece));
         let key = (of, volume.outline == Outline::Polygons, volume.extrusion.is_some());
         if plain { *first.entry(key).or_insert(number) } else { number }
@@ -457,12 +467,24 @@ fn near_from_object(view: &View, light: &PosedLight, world_from_object: &DAffine
     through.map_or(Mat4::IDENTITY, |through| (through.clip_from_world * DMat4::from(*world_from_object)).as_mat4())
 }
 
+/// Object space to clip space, by way of the receiver's plane.
+fn projected_from_object(volume: &VolumePlan, plan: &FramePlan, light: &PosedLight, world_from_object: &DAffine3) -> Mat4 {
+    let Some(Projection { onto, .. }) = volume.projection else { return Mat4::IDENTITY };
+    let clip_from_world = plan.views[volume.view].camera.clip_from_world();
+    (clip_from_world * shadow_matrix(onto.plane, light.into()) * DMat4::from(*world_from_object)).as_mat4()
+}
+
 /// A plane of world space in object space, its normal made unit again.
 fn end_in_object(end: Option<DVec4>, world_from_object: &DAffine3) -> Vec4 {
     let Some(end) = end else { return NEVER_ENDS.as_vec4() };
-    let normal = world_from_object.matrix3.transpose() * end.truncate();
-    let offset = end.truncate().dot(world_from_object.translation) + end.w;
-    (normal.extend(offset) / normal.length()).as_vec4()
+    let plane = in_object(end, world_from_object);
+    (plane / plane.truncate().length()).as_vec4()
+}
+
+/// A plane of world space in object space: it gives heights in metres still.
+fn in_object(plane: DVec4, world_from_object: &DAffine3) -> DVec4 {
+    let normal = world_from_object.matrix3.transpose() * plane.truncate();
+    normal.extend(plane.truncate().dot(world_from_object.translation) + plane.w)
 }
 
 fn frame(plan: &FramePlan, view: &View, scene: &Scene, pose: &Pose) -> Frame {

@@ -164,7 +164,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::WideVerdictEach, "wide.wgsl", "full_screen_vertex", "wide_verdict_each", Vertices::None, &[]),
     entry(Program::WideBit, "wide.wgsl", "full_screen_vertex", "wide_bit", Vertices::None, &[]),
     entry(Program::WideOverflow, "wide.wgsl", "full_screen_vertex", "wide_overflow", Vertices::None, &[]),
-    entry(Program::NearPlane, "volume.wgsl", "near_plane_vertex", "volume_count", Vertices::Volume, &[]),
+    entry(Program::NearPlane, "volume.wgsl", "thrown_vertex", "volume_count", Vertices::Volume, &[]),
     entry(Program::Dark, "dark.wgsl", "full_screen_vertex", "dark", Vertices::None, &[]),
     entry(Program::Tint, "tint.wgsl", "surface_vertex", "tint", Vertices::Surface, SURFACE),
     entry(Program::TintMasked, "tint.wgsl", "surface_vertex", "tint_masked", Vertices::Surface, SURFACE),
@@ -179,6 +179,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::Playground, "playground.wgsl", "full_screen_vertex", "playground", Vertices::None, &[]),
     entry(Program::SolidMerge, "solid.wgsl", "full_screen_vertex", "solid_merge", Vertices::None, &[]),
     entry(Program::SolidMergeEach, "solid.wgsl", "full_screen_vertex", "solid_merge_each", Vertices::None, &[]),
+    entry(Program::Projected, "volume.wgsl", "thrown_vertex", "projected", Vertices::Volume, &[]),
 ];
 
 /// The entry of a program.

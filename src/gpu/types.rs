@@ -88,7 +88,7 @@ pub struct Volume {
     /// The plane the volume ends on, in the same space.
     pub end_in_object: [f32; 4],
     /// Where a cut-out's far vertices go: homogeneous object space. For ZP+, where the light sees a
-    /// vertex through the near rectangle: clip space.
+    /// vertex through the near rectangle, and for planar shadows, where it throws it: clip space.
     pub thrown: [[f32; 4]; 4],
     /// The caster's instance number.
     pub object: u32,

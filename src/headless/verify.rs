@@ -21,8 +21,8 @@ use crate::director::{self, StageError};
 use crate::frame::{Camera, Capabilities, FramePlan, identity_color};
 use crate::gpu::{Context, Renderer, readback};
 use crate::scene::{AnimationChoice, Mirror, Pose, PosedLight, Scene};
-use crate::settings::{Mirrors, Settings, Show, Technique};
-use crate::techniques;
+use crate::settings::{MirrorLight, Mirrors, Planar, PlanarMode, Settings, Show, Technique};
+use crate::techniques::{self, planar};
 use crate::truth::{Comparison, SurfaceComparison, Surfaces, Traced, Verdicts, World, Wrong, WrongPixel, paint};
 
 /// What was found.
@@ -63,6 +63,9 @@ pub struct Report {
 pub struct LightRow {
     /// The technique.
     pub technique: Technique,
+    /// What draws shadows in its place: the verdict is then one on receivers alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub planar: Option<PlanarMode>,
     /// Whether it claims to be exact, with these settings.
     pub exact: bool,
     /// The light's index.
@@ -118,6 +121,9 @@ pub struct WrongSurfaceView {
 pub struct WrongView {
     /// The technique.
     pub technique: Technique,
+    /// What draws shadows in its place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub planar: Option<PlanarMode>,
     /// Whether it claims to be exact.
     pub exact: bool,
     /// The light.
@@ -169,6 +175,8 @@ pub struct Shots {
     key: Key,
     mirrors: Vec<Mirror>,
     bounces: u32,
+    /// The only surfaces with a verdict, where shadows are planar: elsewhere nothing is claimed.
+    receivers: Option<Vec<(usize, usize)>>,
 }
 
 /// What the colours of `show surfaces` mean.
@@ -212,10 +220,15 @@ pub struct Judged {
 }
 
 impl Judged {
-    /// 2 where a technique that claims to be exact is wrong, or a surface, 1 where another is.
-    fn worst(&self) -> u8 {
+    /// 2 where what claims to be exact is wrong, or a surface, 1 where another is.
+    fn worst(&self, settings: &Settings) -> u8 {
         let wrong = self.found.iter().filter(|(.., found)| found.wrong() > 0);
-        let lights = wrong.map(|(technique, ..)| 1 + u8::from(techniques::row(*technique).exact)).max().unwrap_or(0);
+        let lights = wrong
+            .map(|(technique, ..)| {
+                1 + u8::from(techniques::claims_exact(&Settings { technique: *technique, ..settings.clone() }))
+            })
+            .max()
+            .unwrap_or(0);
         if self.surfaces.pixels.is_empty() { lights } else { 2 }
     }
 
@@ -240,6 +253,8 @@ impl Shots {
         (techniques, lights): (&[Technique], &[usize]),
         mut draw: impl FnMut(&FramePlan, &Pose) -> Result<RgbaImage, E>,
     ) -> Result<Option<Self>, E> {
+        let counting = |technique: &Technique| planar::technique(&Settings { technique: *technique, ..settings.clone() });
+        let techniques: &[Technique] = &techniques.iter().map(counting).collect::<Vec<_>>();
         let by = techniques.iter().find(|technique| reflects(**technique)).or(techniques.first());
         let Some(&technique) = by.filter(|_| !lights.is_empty()) else { return Ok(None) };
         let settings = whole(settings);
@@ -256,6 +271,10 @@ impl Shots {
             },
             mirrors: scene.mirrors_in_force(&settings.mirrors).0,
             bounces: if reflects(technique) { settings.mirrors.most_bounces() } else { 0 },
+            receivers: planar::is_on(&settings).then(|| {
+                let receivers = scene.receivers_in_force(&settings.planar).0.into_iter();
+                receivers.map(|receiver| (receiver.instance, receiver.primitive)).collect()
+            }),
             pose,
         };
         for &technique in techniques {
@@ -274,7 +293,11 @@ impl Shots {
     /// What rays are cast through.
     #[must_use]
     pub fn world(&self, scene: &Scene) -> World {
-        World::with_mirrors(scene, &self.pose, &self.mirrors)
+        let world = World::with_mirrors(scene, &self.pose, &self.mirrors);
+        match &self.receivers {
+            Some(receivers) => world.of_receivers(receivers.iter().copied()),
+            None => world,
+        }
     }
 
     /// Holds the pictures, of `size` pixels, against rays through `world`, which is [`Self::world`] or that of
@@ -323,16 +346,16 @@ fn whole(settings: &Settings) -> Settings {
 
 /// A world, and the moment and the mirrors it belongs to: views of one moment share it.
 #[derive(Default)]
-pub struct Kept(Option<(f64, AnimationChoice, Mirrors, World)>);
+pub struct Kept(Option<(f64, AnimationChoice, Mirrors, Planar, World)>);
 
 impl Kept {
     /// The world of some shots: the one that is kept, where it is theirs, or a new one, which is kept then.
     fn world(&mut self, scene: &Scene, settings: &Settings, shots: &Shots) -> &World {
         let animation = settings.animation.unwrap_or(scene.default_animation);
-        let (time, mirrors) = (settings.time, &settings.mirrors);
-        let held = self.0.take().filter(|kept| (kept.0, kept.1, &kept.2) == (time, animation, mirrors));
-        let held = held.unwrap_or_else(|| (time, animation, mirrors.clone(), shots.world(scene)));
-        &self.0.insert(held).3
+        let (time, mirrors, planar) = (settings.time, &settings.mirrors, &settings.planar);
+        let held = self.0.take().filter(|kept| (kept.0, kept.1, &kept.2, &kept.3) == (time, animation, mirrors, planar));
+        let held = held.unwrap_or_else(|| (time, animation, mirrors.clone(), planar.clone(), shots.world(scene)));
+        &self.0.insert(held).4
     }
 }
 
@@ -364,6 +387,12 @@ pub fn verify_view(
 /// Whatever stands in the way. Wrong pixels are no error here: [`Report::broken_promises`] counts them.
 pub fn verify(request: &VerifyRequest) -> Result<Report, HeadlessError> {
     crate::cli::check(&request.settings)?;
+    let mut request = request.clone();
+    if planar::is_on(&request.settings) {
+        // Planar shadows take the place of all techniques, and no light comes off mirrors.
+        request.techniques.truncate(1);
+        request.settings.mirrors.light = MirrorLight::Off;
+    }
     if let Some(diff) = &request.diff {
         check_target(diff)?;
     }
@@ -415,7 +444,7 @@ pub fn verify(request: &VerifyRequest) -> Result<Report, HeadlessError> {
         }
         // The picture shows the first view in which an exact technique or a surface is wrong, else the first
         // with anything wrong, else the first.
-        let rank = view.judged.worst();
+        let rank = view.judged.worst(settings);
         if request.diff.is_some() && shown.as_ref().is_none_or(|(shown, ..)| rank > *shown) {
             shown = Some((rank, settings.clone(), view));
         }
@@ -444,10 +473,11 @@ impl Report {
         self.eyes_in_shadow += usize::from(view.judged.eye_in_shadow);
         self.add_surfaces(&view.judged, settings);
         for (technique, light, found) in &view.judged.found {
-            let exact = techniques::row(*technique).exact && self.spoiled_by.is_none();
+            let exact = techniques::claims_exact(&Settings { technique: *technique, ..settings.clone() });
             let order = Technique::ALL.iter().position(|one| one == technique).unwrap_or(usize::MAX);
             let row = rows.entry((order, *light)).or_insert_with(|| LightRow {
                 technique: *technique,
+                planar: planar::is_on(settings).then_some(settings.planar.mode),
                 exact,
                 light: *light,
                 name: scene.light_name(&settings.mirrors, *light),
@@ -472,6 +502,7 @@ impl Report {
                 let command = render_command(&settings);
                 self.wrong_views.push(WrongView {
                     technique: *technique,
+                    planar: row.planar,
                     exact,
                     light: *light,
                     wrong: found.wrong(),
@@ -537,7 +568,7 @@ impl Display for Report {
             writeln!(
                 out,
                 "{:<16} {name:<26} {:>11} {:>11} {:>11} {:>9} {:>9}{verdict}",
-                row.technique.name(),
+                row.planar.map_or(row.technique.name(), PlanarMode::name),
                 row.lit,
                 row.shadow,
                 row.decided,
@@ -564,7 +595,8 @@ impl Display for Report {
         }
         for view in &self.wrong_views {
             let WrongPixel { x, y, .. } = view.first;
-            writeln!(out, "{} wrong by {}, the first at {x},{y}: {}", view.wrong, view.technique.name(), view.command)?;
+            let name = view.planar.map_or(view.technique.name(), PlanarMode::name);
+            writeln!(out, "{} wrong by {name}, the first at {x},{y}: {}", view.wrong, view.command)?;
         }
         for view in &self.wrong_surfaces {
             let WrongSurfaceView { wrong, first: [x, y], seen, drawn, command } = view;

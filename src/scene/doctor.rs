@@ -36,6 +36,8 @@ pub struct Report {
     pub skins: usize,
     /// Node and primitive, as `--mirror` has them; name, and how each reflects.
     pub mirrors: Vec<String>,
+    /// `node:primitive`, and its name.
+    pub receivers: Vec<String>,
     /// One a mesh.
     pub meshes: Vec<MeshReport>,
     /// What the importer had to leave out or replace.
@@ -130,6 +132,11 @@ pub fn report(scene: &Scene) -> Report {
         textures,
         skins: scene.skins.len(),
         mirrors: scene.mirrors.iter().map(|mirror| format!("{}:{} {mirror}", mirror.node, mirror.primitive)).collect(),
+        receivers: scene
+            .receivers
+            .iter()
+            .map(|receiver| format!("{}:{} {receiver}", receiver.node, receiver.primitive))
+            .collect(),
         meshes: meshes.collect(),
         warnings: scene.warnings.clone(),
     }
@@ -162,6 +169,7 @@ impl fmt::Display for Report {
             ("cameras", &self.cameras),
             ("animations", &self.animations),
             ("mirrors", &self.mirrors),
+            ("receivers", &self.receivers),
         ] {
             let listed = if entries.is_empty() { "none".into() } else { entries.join(", ") };
             writeln!(f, "  {title:<10}  {listed}")?;

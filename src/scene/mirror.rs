@@ -110,19 +110,29 @@ impl Mirror {
     /// # Errors
     /// Its bones or morph targets have bent it.
     pub fn posed(&self, scene: &Scene, pose: &Pose) -> Result<PosedMirror, Refusal> {
-        let mesh = scene.nodes.get(self.node).and_then(|node| node.mesh).map(|mesh| &scene.meshes[mesh]);
-        let mesh = mesh.ok_or(Refusal::Missing)?;
-        let world_from_object = pose.world_from_object.get(self.node).ok_or(Refusal::Missing)?;
-        let positions = pose.positions(scene, self.node);
-        let triangles = mesh.triangles(self.primitive).map(|corners| corners.map(|vertex| positions[vertex as usize]));
-        let bent = pose.deformed.get(self.node).is_some_and(Option::is_some);
-        let plane = if bent { planar::plane_of(triangles.clone(), self.double_sided)? } else { self.plane };
-        let in_world = |corner: Vec3| world_from_object.transform_point3(corner.as_dvec3());
-        Ok(PosedMirror {
-            plane: planar::transformed(plane, world_from_object),
-            triangles: triangles.map(|corners| corners.map(in_world)).collect(),
-        })
+        posed(scene, pose, (self.node, self.primitive), (self.plane, self.double_sided))
     }
+}
+
+/// Where a flat primitive of a node is in a pose: `plane` is its own while nothing bends it.
+pub(super) fn posed(
+    scene: &Scene,
+    pose: &Pose,
+    (node, primitive): (usize, usize),
+    (plane, both_sides): (DVec4, bool),
+) -> Result<PosedMirror, Refusal> {
+    let mesh = scene.nodes.get(node).and_then(|node| node.mesh).map(|mesh| &scene.meshes[mesh]);
+    let mesh = mesh.ok_or(Refusal::Missing)?;
+    let world_from_object = pose.world_from_object.get(node).ok_or(Refusal::Missing)?;
+    let positions = pose.positions(scene, node);
+    let triangles = mesh.triangles(primitive).map(|corners| corners.map(|vertex| positions[vertex as usize]));
+    let bent = pose.deformed.get(node).is_some_and(Option::is_some);
+    let plane = if bent { planar::plane_of(triangles.clone(), both_sides)? } else { plane };
+    let in_world = |corner: Vec3| world_from_object.transform_point3(corner.as_dvec3());
+    Ok(PosedMirror {
+        plane: planar::transformed(plane, world_from_object),
+        triangles: triangles.map(|corners| corners.map(in_world)).collect(),
+    })
 }
 
 impl Scene {

@@ -18,6 +18,7 @@ pub mod off_mirror;
 pub mod open;
 pub mod pick;
 pub mod pose;
+pub mod receiver;
 pub mod slides;
 pub mod solid;
 pub mod stock;
@@ -29,6 +30,7 @@ pub use mirror::{Mirror, PosedMirror, Reflective, Refusal};
 pub use off_mirror::OffMirror;
 pub use open::{Loading, OpenError, load_on_thread, open};
 pub use pose::{DeformedMesh, Pose, PosedLight};
+pub use receiver::{PosedReceiver, Receiver};
 pub use slides::{BuiltInSlide, Slide};
 pub use solid::{Combination, Operands, Solid, Unfit};
 
@@ -63,6 +65,8 @@ pub struct Scene {
     pub operands: Option<Operands>,
     /// What was put together ([`Scene::combined`]).
     pub solid: Option<Solid>,
+    /// The surfaces that take planar shadows, as the importer found them.
+    pub receivers: Vec<Receiver>,
     /// Light from everywhere and the colour behind everything.
     pub environment: Environment,
     /// Multiplies linear colour before the tone map; chosen for the scene, settings add stops.
@@ -161,6 +165,8 @@ pub struct Material {
     /// A mirror, where its surface is plane: `extras {"mirror": true, "reflectivity": 0.5, "tint": [1, 0.9, 0.8]}`,
     /// the last two as needed.
     pub mirror: Option<Reflective>,
+    /// A receiver of planar shadows, where its surface is plane: `extras {"receiver": true}`.
+    pub receiver: bool,
 }
 
 impl Default for Material {
@@ -176,6 +182,7 @@ impl Default for Material {
             alpha: AlphaMode::Opaque,
             unlit: false,
             mirror: None,
+            receiver: false,
         }
     }
 }

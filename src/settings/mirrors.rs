@@ -202,7 +202,7 @@ impl MirrorLight {
 }
 
 /// Maps with keys that are no text, as lists of pairs.
-mod as_list {
+pub(super) mod as_list {
     use std::collections::BTreeMap;
 
     use serde::{Deserialize as _, Deserializer, Serializer};

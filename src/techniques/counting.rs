@@ -281,6 +281,7 @@ pub(super) fn planned(row: &Row, caster: &Caster<'_>, light: usize, (method, rea
         cutout,
         turns: matches!(caster.piece, Piece::Primitive(_)) || !caster.mesh.topology.report().is_solid(),
         winding: caster.winding(),
+        projection: None,
         flaw: None,
     }
 }

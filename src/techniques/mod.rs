@@ -32,6 +32,7 @@ mod overflow;
 pub mod own_bits;
 mod parity;
 mod per_polygon;
+pub mod planar;
 pub mod playground;
 pub mod show;
 pub mod surfaces;
@@ -111,6 +112,14 @@ pub fn spoiled_by(settings: &Settings) -> Option<&'static str> {
     ]
     .into_iter()
     .find_map(|(asked, words)| asked.then_some(words))
+}
+
+/// Whether every decided pixel must be right: by what counts volumes, or on receivers alone by planar shadows in its
+/// place.
+#[must_use]
+pub fn claims_exact(settings: &Settings) -> bool {
+    let exact = if planar::is_on(settings) { settings.planar.is_exact() } else { row(settings.technique).exact };
+    exact && spoiled_by(settings).is_none()
 }
 
 /// The row of a technique.

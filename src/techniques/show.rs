@@ -14,7 +14,10 @@ pub fn volumes(plans: &[VolumePlan], light: usize, scissor: [u32; 4]) -> Vec<Ste
             .iter()
             .enumerate()
             .filter(|(_, plan)| {
-                plan.view == 0 && plan.light == light && plan.method != Method::Dropped && plan.winding == winding
+                plan.view == 0
+                    && plan.light == light
+                    && !matches!(plan.method, Method::Dropped | Method::Projected)
+                    && plan.winding == winding
             })
             .flat_map(|(volume, _)| {
                 [Part::Sides, Part::LightCapKept, Part::LightCapTurned].map(|part| VolumePart { volume, part })
@@ -71,8 +74,9 @@ pub fn stencil_colors(budget: BitBudget, points_mask: u8, scissor: [u32; 4]) -> 
         scissor,
     );
     if let Action::Draw(draw) = &mut step.action {
-        // Beyond the light's bounds nothing is counted.
-        draw.constant = [f32::from(budget.beyond()), f32::from(points_mask), f32::from(budget.mirror_mask), 0.0];
+        // Beyond the light's bounds nothing is counted. Receivers' values are what is shown, where no count is.
+        let receivers = if budget.verdict_mask == 0 { 0 } else { budget.receiver_mask };
+        draw.constant = [f32::from(budget.beyond()), f32::from(points_mask), f32::from(budget.mirror_mask | receivers), 0.0];
     }
     step
 }

@@ -400,28 +400,41 @@ pub fn textures(groups: &[SurfaceGroup], stencil: StencilState, scissor: [u32; 4
 /// One light's verdict in exact values: white where the count is zero, black where it is not.
 #[must_use]
 pub fn verdict(groups: &[SurfaceGroup], light: usize, scissor: [u32; 4], budget: BitBudget) -> Vec<Step> {
-    let verdicts = [
-        ("shadow", StencilState::IGNORE, 0.0, "Black within the light's range, until the count says otherwise."),
-        ("lit", StencilState::count_equals(budget), 1.0, "White where the count is zero, within the light's range."),
-    ];
-    let mut steps = Vec::new();
-    for (name, stencil, value, why) in verdicts {
-        for group in groups {
-            let draw = Draw {
-                program: Program::Verdict,
-                look: Look::default(),
-                target: Target::Scene,
-                state: group.again(Blend::Replace, stencil),
-                stencil_reference: 0,
-                scissor,
-                light: Some(light),
-                constant: [value, value, value, 1.0],
-                set: DrawSet::Surfaces(group.surfaces.clone()),
-            };
-            steps.push(step(format!("light {light}: {name}{}", group.words()), why, draw));
-        }
-    }
-    steps
+    let dark = said(groups, light, scissor, false, StencilState::IGNORE);
+    let lit = said(groups, light, scissor, true, StencilState::count_equals(budget));
+    dark.into_iter().chain(lit).collect()
+}
+
+/// Half of a light's verdict in exact values: that surfaces are `lit`, or that they are in shadow, where the stencil lets
+/// it through.
+#[must_use]
+pub fn said<'a>(
+    groups: impl IntoIterator<Item = &'a SurfaceGroup>,
+    light: usize,
+    scissor: [u32; 4],
+    lit: bool,
+    stencil: StencilState,
+) -> Vec<Step> {
+    let (name, value, why) = if lit {
+        ("lit", 1.0, "White where the count is zero, within the light's range.")
+    } else {
+        ("shadow", 0.0, "Black within the light's range, until the count says otherwise.")
+    };
+    let of_group = |group: &SurfaceGroup| {
+        let draw = Draw {
+            program: Program::Verdict,
+            look: Look::default(),
+            target: Target::Scene,
+            state: group.again(Blend::Replace, stencil),
+            stencil_reference: 0,
+            scissor,
+            light: Some(light),
+            constant: [value, value, value, 1.0],
+            set: DrawSet::Surfaces(group.surfaces.clone()),
+        };
+        step(format!("light {light}: {name}{}", group.words()), why, draw)
+    };
+    groups.into_iter().map(of_group).collect()
 }
 
 /// Blended surfaces, far to near, in every light, unshadowed.

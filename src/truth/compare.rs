@@ -7,6 +7,8 @@ use image::{Rgba, RgbaImage};
 pub enum Verdict {
     /// Undecided: rays through the pixel disagree.
     Edge,
+    /// A surface that rays were not asked about ([`super::World::of_receivers`]).
+    Unasked,
     /// No surface: grey.
     Nothing,
     /// A surface beyond the light's range: grey.
@@ -22,7 +24,7 @@ impl Verdict {
     #[must_use]
     pub const fn value(self) -> Option<u8> {
         match self {
-            Self::Edge => None,
+            Self::Edge | Self::Unasked => None,
             Self::Nothing | Self::OutOfRange => Some(128),
             Self::Lit => Some(255),
             Self::Shadow => Some(0),
@@ -113,7 +115,7 @@ impl Verdicts {
         let mut comparison = Comparison::default();
         for (at, &verdict) in (0u32..).zip(&self.pixels) {
             let Some(value) = verdict.value() else {
-                comparison.edges += 1;
+                comparison.edges += usize::from(verdict == Verdict::Edge);
                 continue;
             };
             comparison.decided += 1;
@@ -142,8 +144,7 @@ pub fn paint(picture: &mut RgbaImage, verdicts: &[Verdicts], wrong: &[WrongPixel
         let [r, g, b, a] = pixel.0;
         pixel.0 = [r / 3, g / 3, b / 3, a];
     }
-    let edge =
-        |at: usize| verdicts.iter().any(|verdicts| verdicts.pixels.get(at).is_some_and(|verdict| verdict.value().is_none()));
+    let edge = |at: usize| verdicts.iter().any(|verdicts| verdicts.pixels.get(at) == Some(&Verdict::Edge));
     for (_, pixel) in picture.pixels_mut().enumerate().filter(|(at, _)| edge(*at)) {
         let [r, g, b, a] = pixel.0;
         pixel.0 = [r.saturating_add(28), g.saturating_add(28), b.saturating_add(34), a];

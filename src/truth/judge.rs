@@ -180,6 +180,10 @@ impl<'a> Caster<'a> {
         let instance = shown.nearest[0].instance;
         if instance == NONE {
             verdicts.fill(Verdict::Nothing);
+        } else if !shown.nearest.iter().any(|met| self.world.asks_about(met.face)) {
+            verdicts.fill(Verdict::Unasked);
+        } else if !shown.nearest.iter().all(|met| self.world.asks_about(met.face)) {
+            // Both kinds of surface in one pixel: an edge.
         } else if let Some(surface) = self.surface(&shown) {
             self.last.resize(lights.len(), None);
             for (number, (light, verdict)) in lights.iter().zip(verdicts).enumerate() {
@@ -216,9 +220,10 @@ impl<'a> Caster<'a> {
         // corners to the nearest 256th of a pixel, may give the pixel to the one and the edge of a volume
         // that begins there to the other.
         let (depth, moved) = (nearest[0].depth, NUDGE * self.world.size);
-        let [across, along] = eye.pixel.map(DVec3::normalize);
-        let sideways = SIDEWAYS.map(|by| directions[0] + (across * by.x + along * by.y) * (moved / depth));
-        let again = self.world.meet(eye, sideways, moved / depth, &mut self.stack);
+        let least = moved / depth;
+        let [across, along] = eye.pixel.map(|pixel| pixel.normalize() * least.max(self.world.outlined_by() * pixel.length()));
+        let sideways = SIDEWAYS.map(|by| directions[0] + across * by.x + along * by.y);
+        let again = self.world.meet(eye, sideways, across.length().max(along.length()), &mut self.stack);
         if again.iter().any(|met| met.face != nearest[0].face) {
             return None;
         }

@@ -1,5 +1,7 @@
 //! A scene at one point in time, as triangles of world space in double precision.
 
+use std::collections::BTreeSet;
+
 use glam::{DVec2, DVec3, DVec4};
 
 use super::mask::Masks;
@@ -28,6 +30,8 @@ pub struct World {
     pub(super) mirrors: Vec<Glass>,
     /// Two solids put together.
     pub(super) combined: Option<Combined>,
+    /// Instances and their primitives: the only surfaces that verdicts are asked about, where it is not all of them.
+    asked: Option<BTreeSet<(u32, u32)>>,
 }
 
 /// A mirror in the world.
@@ -56,6 +60,8 @@ pub struct Face {
     pub corners: [DVec3; 3],
     /// The scene's instance it belongs to.
     pub instance: u32,
+    /// The primitive of the instance's mesh that it belongs to.
+    pub primitive: u32,
     /// The number of the mirror it is a part of, or [`NONE`].
     pub mirror: u32,
     /// Whether it is drawn into the depth buffer, and how.
@@ -118,7 +124,7 @@ impl World {
             let positions = pose.positions(scene, node_index);
             let mirrored = world_from_object.matrix3.determinant() < 0.0;
             let casts = if node.casts_shadow { casting(mesh) } else { Vec::new() };
-            for (number, primitive) in mesh.primitives.iter().enumerate() {
+            for (at, (number, primitive)) in (0u32..).zip(mesh.primitives.iter().enumerate()) {
                 let mirror = mirrors.iter().position(|mirror| (mirror.node, mirror.primitive) == (node_index, number));
                 let mirror = mirror.and_then(|mirror| u32::try_from(mirror).ok()).unwrap_or(NONE);
                 let material = &scene.materials[primitive.material];
@@ -144,7 +150,7 @@ impl World {
                     } else {
                         None
                     };
-                    faces.push(Face { corners, instance, mirror, seen, casts, mirrored, mask });
+                    faces.push(Face { corners, instance, primitive: at, mirror, seen, casts, mirrored, mask });
                 }
             }
         }
@@ -166,7 +172,29 @@ impl World {
             largest,
             mirrors: mirrors.iter().map(glass).collect(),
             combined,
+            asked: None,
         }
+    }
+
+    /// The same for planar shadows, with verdicts on their receivers only, each an instance and one of its primitives: of
+    /// all other surfaces rays are not asked whether they are lit.
+    #[must_use]
+    pub fn of_receivers(mut self, receivers: impl IntoIterator<Item = (usize, usize)>) -> Self {
+        let number = |number: usize| u32::try_from(number).unwrap_or(NONE);
+        self.asked = Some(receivers.into_iter().map(|(instance, primitive)| (number(instance), number(primitive))).collect());
+        self
+    }
+
+    /// How far a shadow's border may be off where a rasteriser draws it as an outline, pixels: a planar shadow ends with its
+    /// triangles, whose corners are moved to the nearest 256th of a pixel. A volume's border is where two depths meet.
+    pub(super) fn outlined_by(&self) -> f64 {
+        if self.asked.is_some() { 1.0 / 128.0 } else { 0.0 }
+    }
+
+    /// Whether verdicts are asked about a face.
+    pub(super) fn asks_about(&self, face: u32) -> bool {
+        let Face { instance, primitive, .. } = self.faces[face as usize];
+        self.asked.as_ref().is_none_or(|asked| asked.contains(&(instance, primitive)))
     }
 
     /// A mirror, by its number, as seen from `eye`.

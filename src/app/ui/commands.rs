@@ -2,7 +2,7 @@
 
 use egui::Context;
 
-use super::{Action, Desk, Panel, View, camera};
+use super::{Action, Desk, Marks, Panel, View, camera};
 use crate::app::control::Mode;
 use crate::app::keys::{self, Command};
 use crate::settings::{CameraChoice, SceneChoice, Show, Technique};
@@ -70,14 +70,15 @@ fn one(command: Command, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_>
             let four = view.capabilities.is_none_or(|capabilities| capabilities.four_samples);
             settings.samples = if settings.samples == 1 && four { 4 } else { 1 };
         }
-        Command::MakeMirrors => panel.makes_mirrors = !panel.makes_mirrors,
+        Command::MakeMirrors => panel.toggle_marks(Marks::Mirrors),
+        Command::MarkReceivers => panel.toggle_marks(Marks::Receivers),
         Command::ToggleIcons => preferences.icons = !preferences.icons,
         Command::TogglePanel => preferences.panel = !preferences.panel,
         Command::ToggleHelp => panel.help = !panel.help,
         Command::Close => {
             panel.help = false;
             panel.focus_path = false;
-            panel.makes_mirrors = false;
+            panel.marks = None;
         }
         Command::Screenshot => actions.push(Action::Screenshot),
         Command::CopyCommand => actions.push(Action::CopyCommand),

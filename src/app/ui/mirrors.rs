@@ -4,7 +4,7 @@ use egui::{Color32, Pos2, Rect, RichText, Ui};
 
 use super::style::{self, explain, field, number, slider};
 use super::technique::capital;
-use super::{Action, Desk, Notice, Panel, Tone, Topic, View, gizmo};
+use super::{Action, Desk, Marks, Notice, Panel, Tone, Topic, View, gizmo};
 use crate::frame::stencil::BitBudget;
 use crate::frame::{Camera, FramePlan};
 use crate::scene::pick::surface_at;
@@ -72,8 +72,8 @@ pub fn mirrors(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
         bits(ui, plan.budget);
     }
     let key = crate::app::keys::key_of(crate::app::keys::Command::MakeMirrors).unwrap_or_default();
-    ui.checkbox(&mut panel.makes_mirrors, format!("Clicks make mirrors ({key})"))
-        .on_hover_text("While this is on, a click on a flat surface of the picture makes it a mirror, and a mirror none");
+    let tip = "While this is on, a click on a flat surface of the picture makes it a mirror, and a mirror none";
+    panel.marks_box(ui, Marks::Mirrors, &format!("Clicks make mirrors ({key})"), tip);
     if let Some(scene) = view.scene {
         list(ui, settings, scene);
     }
@@ -112,6 +112,7 @@ fn owner(budget: BitBudget, bit: u32) -> Owner {
     let has = |mask: u8| mask >> bit & 1 == 1;
     [
         (budget.mirror_mask, ("M", "mirror level", Color32::from_rgb(0x7a, 0x55, 0x1e))),
+        (budget.receiver_mask, ("R", "receivers of planar shadows", Color32::from_rgb(0x25, 0x58, 0x6e))),
         (budget.beyond_mask, ("B", "beyond the light's bounds", Color32::from_rgb(0x5d, 0x3a, 0x6b))),
         (budget.verdict_mask, ("V", "shadowed by a batch before", Color32::from_rgb(0x70, 0x36, 0x30))),
         (
@@ -127,7 +128,7 @@ fn owner(budget: BitBudget, bit: u32) -> Owner {
 }
 
 /// The stencil's eight bits, the highest first, and a legend.
-fn bits(ui: &mut Ui, budget: BitBudget) {
+pub(super) fn bits(ui: &mut Ui, budget: BitBudget) {
     let owners = [7, 6, 5, 4, 3, 2, 1, 0].map(|bit| (bit, owner(budget, bit)));
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;

@@ -21,6 +21,7 @@ mod lights;
 mod mirrors;
 mod numbers;
 mod picture;
+mod planar;
 mod playground;
 mod scene;
 pub mod style;
@@ -108,6 +109,8 @@ pub enum Topic {
     Device,
     /// A surface that was made a mirror, or was to be.
     Mirrors,
+    /// A surface that was made a receiver of planar shadows, or was to be.
+    Receivers,
 }
 
 /// How bad it is.
@@ -173,8 +176,8 @@ pub struct Panel {
     /// The figure that was chosen last.
     figure: Option<usize>,
     focus_path: bool,
-    /// Clicks on the picture make mirrors.
-    makes_mirrors: bool,
+    /// What clicks on the picture make of surfaces.
+    marks: Option<Marks>,
     selected_light: Option<usize>,
     unfold_light: Option<usize>,
     /// Whose calls the playground shows.
@@ -186,7 +189,28 @@ pub struct Panel {
     icons: Vec<(usize, egui::Pos2)>,
 }
 
+/// What a click on the picture makes of a flat surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Marks {
+    /// A mirror.
+    Mirrors,
+    /// A receiver of planar shadows.
+    Receivers,
+}
+
 impl Panel {
+    fn toggle_marks(&mut self, marks: Marks) {
+        self.marks = if self.marks == Some(marks) { None } else { Some(marks) };
+    }
+
+    /// A box that says whether clicks do that.
+    fn marks_box(&mut self, ui: &mut Ui, marks: Marks, words: &str, tip: &str) {
+        let mut on = self.marks == Some(marks);
+        if ui.checkbox(&mut on, words).on_hover_text(tip).changed() {
+            self.toggle_marks(marks);
+        }
+    }
+
     /// One pass over everything.
     pub fn show(&mut self, ui: &mut Ui, mut desk: Desk<'_>, view: &View<'_>) -> Outcome {
         let mut actions = Vec::new();
@@ -258,6 +282,7 @@ impl Panel {
         style::section(ui, "Mirrors", true, |ui| mirrors::mirrors(ui, self, desk, view));
         style::section(ui, "Solids", false, |ui| csg::csg(ui, desk, view));
         style::section(ui, "Halos", false, |ui| halo::halos(ui, desk, view));
+        style::section(ui, "Planar shadows", true, |ui| planar::planar(ui, self, desk, view));
         style::section(ui, "Count", false, |ui| counting::counting(ui, desk, view));
         style::section(ui, "Culling", false, |ui| culling::culling(ui, desk, view));
         style::section(ui, "Camera", true, |ui| camera::camera(ui, desk, view));
@@ -270,7 +295,8 @@ impl Panel {
     fn floating(&self, ui: &Ui, desk: &Desk<'_>, view: &View<'_>, picture: Rect, actions: &mut Vec<Action>) {
         let frame = view.history.median(|frame| frame.interval_ms).unwrap_or(0.0);
         let failure = desk.settings.failure.map(|failure| format!(" | wrong on purpose: {}", failure.name()));
-        let (technique, show) = (desk.settings.technique.name(), desk.settings.show.name());
+        let planar = crate::techniques::planar::is_on(desk.settings).then(|| desk.settings.planar.mode.name());
+        let (technique, show) = (planar.unwrap_or(desk.settings.technique.name()), desk.settings.show.name());
         let words = format!("{technique} | {show}{} | {frame:.1} ms | F1 help", failure.unwrap_or_default());
         numbers::caption(ui, picture, &words);
         if !view.notices.is_empty() {

@@ -3,7 +3,7 @@
 use egui::{PointerButton, Rect, Response, Sense, Ui};
 use glam::DVec2;
 
-use super::{Action, Desk, Panel, View, gizmo, mirrors, numbers, playground};
+use super::{Action, Desk, Marks, Panel, View, gizmo, mirrors, numbers, planar, playground};
 use crate::app::control::{self, Mode};
 use crate::app::keys;
 use crate::frame::Camera;
@@ -41,15 +41,19 @@ pub fn picture(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
     let pressed = ui.input(|input| input.pointer.primary_pressed().then(|| input.pointer.press_origin()).flatten());
     if let Some(at) = pressed
         && held
-        && !panel.makes_mirrors
+        && panel.marks.is_none()
     {
         panel.drag = gizmo::grab(panel.selected_light, &panel.icons, desk, view, &seen_by(desk, view, camera), rect, at);
     }
     if response.clicked()
         && let Some(at) = response.interact_pointer_pos()
     {
-        if panel.makes_mirrors {
-            mirrors::click(desk, view, &seen_by(desk, view, camera), rect, at, actions);
+        if let Some(marks) = panel.marks {
+            let click = match marks {
+                Marks::Mirrors => mirrors::click,
+                Marks::Receivers => planar::click,
+            };
+            click(desk, view, &seen_by(desk, view, camera), rect, at, actions);
         } else {
             match panel
                 .drag
@@ -90,8 +94,11 @@ pub fn picture(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
         panel.icons = gizmo::paint(ui, panel.selected_light, panel.drag, desk, view, &camera, rect);
     }
     super::verify::overlay(ui, rect, desk, view);
-    if panel.makes_mirrors {
-        let words = "click a flat surface: a mirror, or none any more | X or Esc ends this";
+    if let Some(marks) = panel.marks {
+        let words = match marks {
+            Marks::Mirrors => "click a flat surface: a mirror, or none any more | X or Esc ends this",
+            Marks::Receivers => "click a flat surface: it takes planar shadows, or none any more | Z or Esc ends this",
+        };
         // Above what stands there while the panel is hidden.
         numbers::caption(ui, rect.with_max_y(rect.max.y - 26.0), words);
         response.on_hover_cursor(egui::CursorIcon::Crosshair);

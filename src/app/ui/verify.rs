@@ -26,9 +26,9 @@ pub fn verify(ui: &mut Ui, desk: &Desk<'_>, view: &View<'_>, actions: &mut Vec<A
         let color = if wrong == 0 { style::GOOD } else { style::ERROR };
         ui.label(RichText::new(format!("{name}: {decided} decided, {edges} edges, {wrong} wrong")).color(color));
     }
-    let row = techniques::row(desk.settings.technique);
     let spoiled = techniques::spoiled_by(desk.settings);
-    let words = match (finding.wrong.is_empty(), row.exact && spoiled.is_none()) {
+    let words = match (finding.wrong.is_empty(), techniques::claims_exact(desk.settings)) {
+        (true, _) if techniques::planar::is_on(desk.settings) => "Every decided pixel of the receivers is what exact rays say.",
         (true, _) => "Every decided pixel is what exact rays say.",
         (false, _) if wrong_surfaces > 0 => "What is seen must be exact by every technique: please report this view.",
         (false, true) => "This technique claims to be exact: please report this view.",

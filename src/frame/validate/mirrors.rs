@@ -54,6 +54,7 @@ pub(super) fn check(plan: &FramePlan, view: usize, draw: &Draw, state: &mut Prog
         (state.counted, state.counting, state.shone) = (None, false, 0);
         state.tagged = false;
         state.owned.clear();
+        state.receivers.clear();
         return Ok(());
     }
     check_draw(plan, &draw, state)

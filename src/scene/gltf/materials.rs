@@ -96,6 +96,7 @@ pub(super) fn import(
             alpha,
             unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
             mirror: mirror(&material.extras, named, warnings),
+            receiver: receiver(&material.extras, named, warnings),
         });
     }
     Ok(materials)
@@ -131,6 +132,15 @@ fn mirror(extras: &Extras, named: impl Fn() -> String, warnings: &mut Warnings) 
         });
     }
     Some(look)
+}
+
+/// What `extras` say of planar shadows: `receiver` true or false.
+fn receiver(extras: &Extras, named: impl Fn() -> String, warnings: &mut Warnings) -> bool {
+    let Some(marked) = extra(extras, "receiver") else { return false };
+    marked.as_bool().unwrap_or_else(|| {
+        warnings.push(format!("{}: its `receiver` is neither true nor false, and it is none", named()));
+        false
+    })
 }
 
 /// Clamped; what is no number becomes `otherwise`.

@@ -122,6 +122,7 @@ fn import(name: &str, bytes: &[u8], folder: &Folder) -> Result<Scene, Problem> {
     scene.cameras = cameras;
     staging::complete(&mut scene, &heights, &mut warnings)?;
     scene.find_mirrors().into_iter().for_each(|refused| warnings.push(refused));
+    scene.find_receivers().into_iter().for_each(|refused| warnings.push(refused));
     scene.warnings = warnings.finish();
     Ok(scene)
 }

@@ -31,6 +31,7 @@ pub(super) fn build() -> Result<Scene, ImportError> {
 
 fn room(c: &mut Composer) {
     let chequers = c.prop("chequers");
+    let chequers = c.receiving(chequers);
     c.put("floor", chequers, at(0.0, 0.0, 0.0).sized(0.5));
     let panelling = walls(c, "panelling", ROOM, [0.0, 0.82], [0.09, 0.17, 0.16]);
     c.put("panelling", panelling, at(0.0, 0.0, 0.0));

@@ -128,8 +128,8 @@ impl Composer {
 
     /// The scene, done.
     pub(super) fn finish(mut self) -> Scene {
-        let refused = self.scene.find_mirrors();
-        self.scene.warnings.extend(refused);
+        let refused = [self.scene.find_mirrors(), self.scene.find_receivers()];
+        self.scene.warnings.extend(refused.into_iter().flatten());
         self.scene
     }
 
@@ -252,6 +252,11 @@ impl Composer {
     /// The same shape as a mirror.
     pub(super) fn reflecting(&mut self, prop: Prop, look: Reflective) -> Prop {
         self.remade(prop, |material| material.mirror = Some(look))
+    }
+
+    /// The same shape marked to take planar shadows.
+    pub(super) fn receiving(&mut self, prop: Prop) -> Prop {
+        self.remade(prop, |material| material.receiver = true)
     }
 
     /// The same, casting no shadow: walls and floors with nothing behind them.

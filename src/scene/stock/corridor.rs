@@ -45,6 +45,7 @@ pub(super) fn build() -> Result<Scene, ImportError> {
 /// faces in one plane, and no joint for the light.
 fn hallway(c: &mut Composer) {
     let floor = c.prop("paving");
+    let floor = c.receiving(floor);
     c.put("floor", floor, at(3.0, 0.0, -4.0));
     let boxes: [([f32; 3], [f32; 3]); 9] = [
         ([-1.2, -0.10, -5.15], [-1.0, 2.80, 3.15]),  // A, left

@@ -12,6 +12,7 @@ pub(super) fn build() -> Result<Scene, ImportError> {
     c.environment([0.085, 0.095, 0.12], [0.05, 0.045, 0.04], [0.030, 0.042, 0.070], [0.075, 0.085, 0.105]);
 
     let floor = c.prop("chequers");
+    let floor = c.receiving(floor);
     c.put("floor", floor, at(0.0, 0.0, 0.0));
     let ball = c.prop("ball");
     let ivory = c.tinted(ball, [0.70, 0.64, 0.54], 0.35);

@@ -13,6 +13,7 @@ pub(super) fn build() -> Result<Scene, ImportError> {
     c.environment([0.080, 0.092, 0.135], [0.060, 0.058, 0.066], [0.020, 0.034, 0.085], [0.13, 0.105, 0.12]);
 
     let floor = c.prop("paving");
+    let floor = c.receiving(floor);
     c.put("floor", floor, at(0.0, 0.0, 0.0));
 
     // The disc rests on its socle; the light stands behind it, the eye before it.

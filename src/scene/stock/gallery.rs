@@ -38,6 +38,7 @@ fn room(c: &mut Composer) {
     let planks = c.prop("planks");
     let floor = c.laid(planks, ROOM, 1.5);
     let floor = c.reflecting(floor, Reflective { reflectivity: 0.22, tint: Vec3::ONE });
+    let floor = c.receiving(floor);
     c.put("floor", floor, at(0.0, 0.0, 0.0));
     for (name, heights, color) in [
         ("skirting", [0.0, 0.16], [0.08, 0.055, 0.04]),

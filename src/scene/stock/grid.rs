@@ -14,6 +14,7 @@ pub(super) fn build() -> Result<Scene, ImportError> {
     c.environment([0.050, 0.060, 0.085], [0.03, 0.03, 0.035], [0.012, 0.018, 0.040], [0.050, 0.058, 0.085]);
 
     let floor = c.prop("paving");
+    let floor = c.receiving(floor);
     c.put("floor", floor, at(0.0, 0.0, 0.0));
     let seats = c.prop("amphitheatre");
     let seats = c.tinted(seats, [0.50, 0.44, 0.36], 0.9);

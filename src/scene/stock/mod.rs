@@ -11,6 +11,7 @@ mod cubes;
 mod demonstrations;
 mod eye_in_shadow;
 mod figure3;
+mod figure7;
 mod gallery;
 mod grid;
 mod halo;
@@ -128,6 +129,11 @@ pub static TABLE: &[StockScene] = &[
         name: "csg",
         about: "a ball and a knot put together to one solid: either, both, one without the other (Kilgard 1999, figure 19)",
         build: csg::build,
+    },
+    StockScene {
+        name: "figure7",
+        about: "a dinosaur on a tile in mid-air, a board behind it, a sun and a lamp: two receivers of planar shadows (Kilgard 1999, figures 6, 7 and 14)",
+        build: figure7::build,
     },
 ];
 

@@ -16,6 +16,7 @@ pub(super) fn build() -> Result<Scene, ImportError> {
     c.environment([0.080, 0.085, 0.10], [0.055, 0.045, 0.04], [0.020, 0.020, 0.026], [0.052, 0.046, 0.044]);
 
     let floor = c.prop("planks");
+    let floor = c.receiving(floor);
     c.put("floor", floor, at(0.0, 0.0, 0.0).facing(90.0));
 
     let teapot = c.prop("teapot");

@@ -81,6 +81,7 @@ fn names_are_unique_and_known() {
             "kaleidoscope",
             "halo",
             "csg",
+            "figure7",
         ]
     );
     assert!(super::build("courtyard").is_some() && super::build("nowhere").is_none());
@@ -167,7 +168,7 @@ fn movement_has_no_seam() {
 fn triangles_stay_few() {
     let most = [
         75_000, 2_500, 25_000, 8_000, 60_000, 35_000, 35_000, 20_000, 16_000, 20_000, 20_000, 15_000, 18_000, 25_000, 8_000,
-        12_000, 25_000, 20_000,
+        12_000, 25_000, 20_000, 8_000,
     ];
     assert_eq!(most.len(), TABLE.len());
     for (scene, most) in scenes().iter().zip(most) {
@@ -221,6 +222,23 @@ fn the_corridor_is_a_periscope() {
     assert!(two.body().may_meet(&place) && !one.body().may_meet(&place));
     for (mirror, name) in [(&first, "the first"), (&second, "the second")] {
         assert!(two.reflected(&mirror.triangles, mirror.plane, false).is_none(), "{name} once more");
+    }
+}
+
+/// What is marked to take planar shadows does, and stays on its plane whatever the time.
+#[test]
+fn receivers_are_where_they_are_meant_to_be() {
+    let count = |name: &str| match name {
+        "cubes" | "teapots" | "grid" | "eye-in-shadow" | "corridor" | "barbershop" | "gallery" => 1,
+        "figure7" => 2,
+        _ => 0,
+    };
+    for scene in scenes() {
+        assert_eq!(scene.receivers.len(), count(scene.name.as_str()), "{}", scene.name);
+        for time in [0.0, 4.3] {
+            let pose = posed(&scene, time);
+            assert!(scene.receivers.iter().all(|receiver| receiver.posed(&scene, &pose).unwrap().room < 1e-4));
+        }
     }
 }
 
