@@ -13,6 +13,7 @@ mod complexity;
 mod counting;
 mod csg;
 mod culling;
+mod decals;
 mod halo;
 mod input;
 mod light_edit;
@@ -472,6 +473,8 @@ struct PictureArguments {
     #[command(flatten)]
     complexity: complexity::ComplexityArguments,
     #[command(flatten)]
+    decals: decals::DecalArguments,
+    #[command(flatten)]
     playground: playground::BoardArguments,
     #[command(flatten)]
     mirrors: mirrors::MirrorArguments,
@@ -503,6 +506,7 @@ impl PictureArguments {
                 smooth_terminator: settings.smooth_terminator,
                 lighting: settings.lighting,
                 counting: settings.counting,
+                decals: settings.decals,
                 playground: settings.playground,
                 complexity: settings.complexity,
                 culling: settings.culling,
@@ -552,6 +556,7 @@ impl PictureArguments {
         self.counting.apply(&mut settings.counting)?;
         self.culling.apply(&mut settings.culling)?;
         self.complexity.apply(&mut settings.complexity)?;
+        self.decals.apply(&mut settings.decals)?;
         self.playground.apply(&mut settings.playground)?;
         self.mirrors.apply(&mut settings.mirrors)?;
         self.halos.apply(&mut settings.halos);

@@ -5,6 +5,7 @@
 //! before (pose, camera) and after (validation), for the window and the headless commands alike.
 
 mod casters;
+mod decals;
 mod halos;
 mod off_mirrors;
 mod planar;
@@ -31,6 +32,7 @@ use crate::scene::{Pose, Sampling, Scene};
 use crate::settings::{Accumulation, MAX_FRAMES, MirrorLight, Settings, Show, Technique, Texturing};
 use crate::techniques::cases::{self, Class};
 use crate::techniques::culling::{Interest, around};
+use crate::techniques::decals::Decals;
 use crate::techniques::labels::Named;
 use crate::techniques::mirrors::{self, Mirrors};
 use crate::techniques::own_bits::{Round, Shining};
@@ -241,6 +243,7 @@ pub fn plan(
             frame.start(rounds.first().map_or(0, |round| round.base));
             frame.draw_solid();
             frame.extend(surfaces::ambient(&groups, whole));
+            frame.lay_decals(&groups);
             if frame.is_planar() {
                 frame.shine_planar(&groups.iter().collect::<Vec<_>>());
             }
@@ -263,6 +266,7 @@ pub fn plan(
                     frame.darken(light, color);
                 }
             }
+            frame.blend_decals(&groups);
             frame.extend(transparent);
             frame.draw_halos();
             frame.finish();
@@ -286,6 +290,7 @@ struct Frame<'a> {
     /// What each view sees, where there are mirrors.
     sights: Vec<Sight>,
     mirrors: Mirrors,
+    decals: Decals,
     /// Of each instance, whether it has a halo.
     glowing: Vec<bool>,
     receivers: Receivers,
@@ -341,13 +346,26 @@ impl<'a> Frame<'a> {
         let outlook = Outlook::new(scene, pose, (0, &plan.views[0]), None);
         let (sights, mirrors, receivers) = (Vec::new(), Mirrors::default(), Receivers::default());
         let glowing = scene.glowing(&settings.halos.edits);
-        let (stored, used) = (0, 0);
-        let mut frame =
-            Self { settings, scene, pose, capabilities, outlook, sights, mirrors, receivers, glowing, stored, used, plan };
+        let mut frame = Self {
+            settings,
+            scene,
+            pose,
+            capabilities,
+            outlook,
+            sights,
+            mirrors,
+            receivers,
+            glowing,
+            decals: Decals::default(),
+            stored: 0,
+            used: 0,
+            plan,
+        };
         solids::note(&mut frame.plan, settings, scene, pose);
         frame.plan_views();
         frame.plan_receivers();
         frame.choose_bits();
+        frame.choose_decals();
         frame
     }
 
@@ -411,6 +429,7 @@ impl<'a> Frame<'a> {
             && textured
             && !self.has_halos()
             && self.scene.solid.is_none()
+            && !self.decals.claim()
     }
 
     /// How often surfaces are textured: exact values have no light to be multiplied.
@@ -450,7 +469,7 @@ impl<'a> Frame<'a> {
 
     /// What surfaces are grouped by.
     fn known(&self) -> Known<'_> {
-        Known { scene: self.scene, pose: self.pose, mirrors: &self.mirrors, places: &self.outlook.places }
+        Known { scene: self.scene, pose: self.pose, mirrors: &self.mirrors, decals: &self.decals, places: &self.outlook.places }
     }
 
     /// The steps from the sum of all light to the picture.

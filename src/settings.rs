@@ -8,6 +8,7 @@ mod complexity;
 mod counting;
 mod csg;
 mod culling;
+mod decals;
 mod halo;
 mod lighting;
 mod mirrors;
@@ -18,6 +19,7 @@ pub use complexity::Complexity;
 pub use counting::{Counting, MAX_COUNT_BITS, Overflow};
 pub use csg::{Csg, Operation};
 pub use culling::{Culling, LightBounds};
+pub use decals::DecalMode;
 pub use halo::{Halos, MAX_HALO_WIDTH};
 pub use lighting::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
 pub use mirrors::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorLight, MirrorMode, MirrorPlace, Mirrors};
@@ -77,6 +79,8 @@ pub struct Settings {
     pub lighting: Lighting,
     /// What is left out of counting shadows.
     pub culling: Culling,
+    /// How coplanar geometry is drawn.
+    pub decals: DecalMode,
     /// Shapes drawn into the stencil, and their states.
     pub playground: Playground,
     /// Which fragments depth complexity counts.
@@ -117,6 +121,7 @@ impl Default for Settings {
             lights: BTreeMap::new(),
             lighting: Lighting::default(),
             culling: Culling::default(),
+            decals: DecalMode::default(),
             playground: Playground::default(),
             complexity: Complexity::default(),
             mirrors: Mirrors::default(),

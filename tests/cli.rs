@@ -158,6 +158,7 @@ fn depth_complexity_is_printed() {
     let (average, most) = (report["complexity"]["average"].as_f64().unwrap(), report["complexity"]["maximum"].as_u64().unwrap());
     assert!(text.contains(&format!("{average:.3} on average")) && text.contains(&format!("{most} at most")), "{text}");
     assert!(bad(folder.path(), &["render", "cubes", "--out", "a.png", "--complexity", "depth"]).contains("updates, fragments"));
+    assert!(bad(folder.path(), &["render", "cubes", "--out", "a.png", "--decals", "on"]).contains("z-fighting, offset, stencil"));
 }
 
 #[test]

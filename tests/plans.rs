@@ -16,7 +16,7 @@ use obscura::frame::validate::validate;
 use obscura::frame::{Action, Capabilities, Draw, DrawSet, FramePlan, Method, Program};
 use obscura::scene::{AlphaMode, LightKind, Material, Scene, Transform, stock};
 use obscura::settings::{
-    AreaMode, CameraChoice, Csg, LightEdit, MirrorLight, MirrorPlace, Operation, PlanarMode, Settings, Show, Technique,
+    AreaMode, CameraChoice, Csg, DecalMode, LightEdit, MirrorLight, MirrorPlace, Operation, PlanarMode, Settings, Show, Technique,
 };
 
 /// Two lights, one with a range; a solid, a mirrored solid, a sheet, a masked and a blended one.
@@ -123,6 +123,24 @@ fn planar_shadows_plan_as_written() {
         settings.planar.mode = mode;
         settings.planar.edits.insert(MirrorPlace { node: 0, primitive: 0 }, true);
         assert_text(&format!("planar-{}", mode.name()), &plan(&scene, &settings));
+    }
+}
+
+#[test]
+fn decals_plan_as_written() {
+    let mut scene = varied();
+    for alpha in [AlphaMode::Opaque, AlphaMode::Blend] {
+        let material = scene.materials.len();
+        scene.materials.push(Material { name: "decal".into(), alpha, decal: true, ..Material::default() });
+        let mut build = Build(scene);
+        let mesh = build.mesh(square(material));
+        let node = build.place(mesh, DVec3::new(1.0, 0.0, 2.0), DVec3::new(3.0, 1.0, 2.0));
+        build.0.nodes[node].casts_shadow = false;
+        scene = build.0;
+    }
+    for decals in DecalMode::ALL {
+        let settings = Settings { decals, size: [320, 180], ..Settings::default() };
+        assert_text(&format!("decals-{}", decals.name()), &plan(&scene, &settings));
     }
 }
 

@@ -17,8 +17,8 @@ use obscura::frame::{Camera, Capabilities, FramePlan};
 use obscura::scene::stock::StockScene;
 use obscura::scene::{self, Light, LightKind, Node, Pose, PosedLight, Scene};
 use obscura::settings::{
-    CameraChoice, Complexity, Csg, Failure, Halos, HybridPart, LastBounce, LightEdit, MirrorMode, MirrorPlace, Mirrors,
-    Operation, Planar, PlanarMode, SceneChoice, Settings, Show, Technique,
+    CameraChoice, Complexity, Csg, DecalMode, Failure, Halos, HybridPart, LastBounce, LightEdit, MirrorMode, MirrorPlace,
+    Mirrors, Operation, Planar, PlanarMode, SceneChoice, Settings, Show, Technique,
 };
 use obscura::techniques::TABLE;
 use obscura::techniques::cases::{self, Class};
@@ -858,4 +858,16 @@ fn a_shape_follows_the_mouse() {
     let moved = [at(&harness)[0] - before[0], at(&harness)[1] - before[1]];
     assert!((moved[0] - 30.0 / rect.width()).abs() < 1e-3 && (moved[1] - 20.0 / rect.height()).abs() < 1e-3, "{moved:?}");
     assert_eq!(harness.state().settings.camera, camera, "the eye stays");
+}
+
+#[test]
+fn decals_are_chosen_in_the_panel() {
+    let mut harness = open(Bench::new());
+    harness.get_by_label("Decals").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label_contains("This scene has none").is_some());
+    for mode in DecalMode::ALL {
+        click(&mut harness, &format!("Decals: {}", mode.name()));
+        assert_eq!(harness.state().settings.decals, mode);
+    }
 }

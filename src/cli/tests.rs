@@ -10,9 +10,9 @@ use proptest::prelude::*;
 use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
 use crate::settings::{
-    Accumulation, AreaMode, Board, Complexity, Counting, Csg, Culling, Halos, HybridPart, LEAST_TEXTURE, LastBounce, LightBounds,
-    Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES, MAX_COUNT_BITS, MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE, MirrorLight, MirrorMode,
-    MirrorPlace, Mirrors, Operation, Overflow, Planar, PlanarMode, Playground, SlideChoice, Texturing, boards,
+    Accumulation, AreaMode, Board, Complexity, Counting, Csg, Culling, DecalMode, Halos, HybridPart, LEAST_TEXTURE, LastBounce,
+    LightBounds, Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES, MAX_COUNT_BITS, MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE, MirrorLight,
+    MirrorMode, MirrorPlace, Mirrors, Operation, Overflow, Planar, PlanarMode, Playground, SlideChoice, Texturing, boards,
 };
 
 fn command(line: &str) -> Result<Command, InputError> {
@@ -46,7 +46,7 @@ fn clap_finds_no_fault_in_the_definition() {
 #[test]
 fn every_argument_reaches_its_setting() {
     let got = settings(
-        "obscura render fox.glb --out a.png --technique z-pass --count-bits 3 --overflow naive --complexity fragments --board masks --numbers --show stencil --failure saturating --light 2 --size 64x32 --samples 4 \
+        "obscura render fox.glb --out a.png --technique z-pass --count-bits 3 --overflow naive --complexity fragments --decals offset --board masks --numbers --show stencil --failure saturating --light 2 --size 64x32 --samples 4 \
          --eye -1,2.5,3e2 --target 0,0,-1 --fov 33.5 --far 7.5 --time 1.25 --animation 3 --floor --exposure -1.5 \
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --area-mode bits --light-sample 3 --accumulate 256 \
@@ -72,6 +72,7 @@ fn every_argument_reaches_its_setting() {
         technique: Technique::ZPass,
         counting: Counting { bits: 3, overflow: Overflow::Naive },
         complexity: Complexity::Fragments,
+        decals: DecalMode::Offset,
         playground: Playground { board: (boards::find("masks").unwrap().build)(), numbers: true },
         show: Show::Stencil,
         failure: Some(Failure::Saturating),
@@ -444,6 +445,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         (
             prop::option::of(prop::sample::select(&Failure::ALL[..])),
             prop::sample::select(&Complexity::ALL[..]),
+            prop::sample::select(&DecalMode::ALL[..]),
             (0..boards::PRESETS.len(), any::<u8>(), any::<bool>()).prop_map(|(preset, clear, numbers)| {
                 let board = (boards::PRESETS[preset].build)();
                 Playground { board: Board { clear: clear % 3, ..board }, numbers }
@@ -461,7 +463,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
                 (culling, mirrors, halos, csg, planar),
                 adapter,
                 shaders,
-                (failure, complexity, playground),
+                (failure, complexity, decals, playground),
             ),
         )| Settings {
             scene,
@@ -469,6 +471,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             technique,
             counting,
             complexity,
+            decals,
             playground,
             show,
             failure,

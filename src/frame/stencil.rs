@@ -52,6 +52,8 @@ pub struct BitBudget {
     /// The highest bits, or none: how many mirrors lie on the way from the eye to the pixel's surface
     /// ([`Self::level`]).
     pub mirror_mask: u8,
+    /// One bit for as long as decals are drawn, or none: the ground that they lie on ([`crate::techniques::decals`]).
+    pub decal_mask: u8,
     /// The lowest three, or none: objects with halos, and what glows ([`crate::techniques::halo`]), when nothing is
     /// counted any more.
     pub halo_mask: u8,
@@ -85,6 +87,7 @@ impl BitBudget {
             mirror_mask: 0,
             halo_mask: 0,
             receiver_mask: 0,
+            decal_mask: 0,
         }
     }
 
@@ -95,6 +98,12 @@ impl BitBudget {
         let bits = u32::BITS - levels.leading_zeros();
         let mirror_mask = !(u8::MAX.unbounded_shr(bits));
         Self { count_mask: self.count_mask & !mirror_mask, mirror_mask, ..self }
+    }
+
+    /// The same with the highest bit that none of `taken` is for the ground of decals; it is free again when they are drawn.
+    #[must_use]
+    pub const fn with_decals(self, taken: u8) -> Self {
+        Self { decal_mask: highest(!(taken | self.beyond_mask | self.mirror_mask)), ..self }
     }
 
     /// The same with the lowest bits for halos, after all light. Mirrors never need so many that these are among theirs.
@@ -161,7 +170,7 @@ impl BitBudget {
     #[must_use]
     pub const fn reserved(self) -> u8 {
         let counted = self.shadow_mask() | self.batched().shadow_mask() | self.points_mask;
-        counted | self.halo_mask | self.receiver_mask
+        counted | self.halo_mask | self.receiver_mask | self.decal_mask
     }
 
     /// All that is zero where the light shines: the field, the verdict bit, and the bounds'; or a point's own
@@ -486,6 +495,25 @@ impl StencilState {
     const fn compare_count(budget: BitBudget, compare: Compare) -> Self {
         let face = StencilFace::test(compare);
         Self { front: face, back: face, read_mask: budget.shadow_mask(), write_mask: 0 }
+    }
+
+    /// The ground of decals where it is seen gets the bit, which the reference is.
+    #[must_use]
+    pub const fn mark_ground(budget: BitBudget) -> Self {
+        Self { read_mask: 0, ..Self::replace(budget.decal_mask) }
+    }
+
+    /// A decal on marked ground: passes where the bit is the reference's, and takes it away.
+    #[must_use]
+    pub const fn claim_ground(budget: BitBudget) -> Self {
+        let face = StencilFace { pass: StencilOp::Invert, ..StencilFace::test(Compare::Equal) };
+        Self { front: face, back: face, read_mask: budget.decal_mask, write_mask: budget.decal_mask }
+    }
+
+    /// Ground that no decal has claimed is as any other: the bit becomes the reference's, none.
+    #[must_use]
+    pub const fn unmark_ground(budget: BitBudget) -> Self {
+        Self { read_mask: 0, ..Self::replace(budget.decal_mask) }
     }
 
     /// As the playground has it: any state at all, in a frame whose stencil belongs to nobody else.

@@ -1,6 +1,7 @@
 //! Checks a plan without a GPU. A fault here is a bug in the director or a technique, caught where
 //! it can be read instead of where it can only be seen.
 
+mod decals;
 mod fragments;
 mod halo;
 mod mirrors;
@@ -122,6 +123,8 @@ struct Progress {
     owned: BTreeMap<u8, Option<usize>>,
     /// Bits that surfaces were marked in when they took light.
     shone: u8,
+    /// The ground of decals is marked.
+    ground_marked: bool,
     /// Shapes of the playground were drawn.
     played: bool,
     /// The stencil holds how many fragments fell on each pixel, since it was cleared.
@@ -219,7 +222,10 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
     if (stencil.tests() || stencil.writes()) && draw.stencil_reference & !(stencil.read_mask | stencil.write_mask) != 0 {
         return Err("its stencil reference does not fit its masks");
     }
-    if let Some(checked) = halo::check(plan, draw, state).or_else(|| fragments::check(plan, draw, state)) {
+    if let Some(checked) = halo::check(plan, draw, state)
+        .or_else(|| fragments::check(plan, draw, state))
+        .or_else(|| decals::check(plan, draw, state))
+    {
         return checked;
     }
     if (stencil.read_mask | stencil.write_mask) & plan.budget.receiver_mask != 0 {

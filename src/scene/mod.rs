@@ -167,6 +167,8 @@ pub struct Material {
     pub mirror: Option<Reflective>,
     /// A receiver of planar shadows, where its surface is plane: `extras {"receiver": true}`.
     pub receiver: bool,
+    /// Lies in the plane of other surfaces, and over them: `extras {"decal": true}`. It casts no shadow.
+    pub decal: bool,
 }
 
 impl Default for Material {
@@ -183,6 +185,7 @@ impl Default for Material {
             unlit: false,
             mirror: None,
             receiver: false,
+            decal: false,
         }
     }
 }

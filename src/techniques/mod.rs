@@ -19,6 +19,7 @@ pub mod counting;
 pub mod csg;
 pub mod culling;
 mod cutout;
+pub mod decals;
 pub mod depth_bounds;
 mod exact_z_pass;
 mod flattened;

@@ -3,11 +3,14 @@
 //! Surfaces are grouped by the state they need: culled or drawn from both sides, wound straight or
 //! mirrored, masked or not, with a texture or a highlight or without.
 
+use std::cmp::Reverse;
+
 use glam::Vec3;
 
+use super::decals::{Decal, Decals};
 use super::mirrors::Mirrors;
 use crate::frame::plan::View;
-use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
+use crate::frame::state::{Blend, Cull, Depth, DepthBias, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{Action, Draw, DrawSet, LightShape, Look, Program, Step, Surface, Target};
 use crate::geometry::frustum::screen_rect;
@@ -34,6 +37,8 @@ pub(super) struct Kind {
     pub mirror: Option<usize>,
     /// Its depth is there already: of two solids put together what is seen was found out before.
     pub laid: bool,
+    /// What it is as a decal.
+    pub decal: Option<Decal>,
     pub look: Look,
 }
 
@@ -46,6 +51,8 @@ pub struct Known<'a> {
     pub pose: &'a Pose,
     /// The mirrors in force.
     pub mirrors: &'a Mirrors,
+    /// The decals, and how they are drawn.
+    pub decals: &'a Decals,
     /// Where things lie before the mirror that the view looks through.
     pub places: &'a [Place],
 }
@@ -97,11 +104,13 @@ pub fn opaque_groups(known: Known<'_>, view: &View, size: [u32; 2], texturing: T
         group.surfaces.sort_by_key(wide);
     }
     groups.sort_by_key(|group| group.surfaces.iter().any(wide));
+    // What claims its pixels comes first, from the topmost on; its ground takes what is left.
+    groups.sort_by_key(|group| Reverse(group.claims().and(group.kind.decal).map(Decal::layer)));
     groups
 }
 
-fn described<'a>(known: Known<'a>, view: &'a View) -> impl Iterator<Item = (Kind, AlphaMode, Surface)> + 'a {
-    let Known { scene, pose, mirrors, places } = known;
+pub(super) fn described<'a>(known: Known<'a>, view: &'a View) -> impl Iterator<Item = (Kind, AlphaMode, Surface)> + 'a {
+    let Known { scene, pose, mirrors, decals, places } = known;
     let through = view.through.as_ref().map(|window| window.surface);
     let described = scene.instances().enumerate().flat_map(move |(instance, (node, _, mesh))| {
         let winding = view.winding.through(pose.world_from_object[node].matrix3.determinant());
@@ -126,6 +135,7 @@ fn described<'a>(known: Known<'a>, view: &'a View) -> impl Iterator<Item = (Kind
                     && material.emissive == Vec3::ZERO,
                 mirror,
                 laid: role != Role::Object,
+                decal: decals.of(surface),
                 look: Look {
                     inside: role == Role::Inside,
                     clipped: places[instance] == Place::Across,
@@ -140,7 +150,8 @@ fn described<'a>(known: Known<'a>, view: &'a View) -> impl Iterator<Item = (Kind
     });
     let casts_only = scene.solid.as_ref().and_then(|solid| solid.caster);
     let is_seen = move |surface: Surface| {
-        Some(surface.instance) != casts_only && places[surface.instance] != Place::Unseen && Some(surface) != through
+        let there = Some(surface.instance) != casts_only && places[surface.instance] != Place::Unseen;
+        there && Some(surface) != through && !decals.hides(surface)
     };
     described.filter(move |(.., surface)| is_seen(*surface))
 }
@@ -174,7 +185,8 @@ pub fn ambient<'a>(groups: impl IntoIterator<Item = &'a SurfaceGroup>, scissor: 
         set: DrawSet::Surfaces(group.surfaces.clone()),
     };
     let why = "Draws every surface in ambient and emitted light and lays the depth that all later steps are tested against.";
-    groups.into_iter().map(|group| step(format!("ambient{}", group.words()), why, draw(group))).collect()
+    let plain = groups.into_iter().filter(|group| group.claims().is_none());
+    plain.map(|group| step(format!("ambient{}", group.words()), why, draw(group))).collect()
 }
 
 /// Depth alone, of every surface that does not lay it when it is [`finished`]: those do where nothing is
@@ -222,6 +234,7 @@ pub fn finished(groups: &[SurfaceGroup], only: Option<&OnlyLight<'_>>, scissor: 
     let dark = only.and_then(|only| only.dark);
     for group in groups {
         let depth = if group.lays_depth_when_finished(dark.is_some()) { Depth::LAY } else { Depth::SAME_SURFACE };
+        let depth = depth.with_bias(group.bias());
         let mut draw = |words: &str, why: &str, surfaces: &[Surface], lit: Option<&OnlyLight<'_>>, stencil, scissor| {
             if surfaces.is_empty() {
                 return;
@@ -337,7 +350,8 @@ pub fn tinted_again(groups: &[SurfaceGroup], tint: &Tint<'_>, scissor: [u32; 4])
     let mut steps = tinted(groups, tint, |_| true, scissor);
     for step in &mut steps {
         if let Action::Draw(draw) = &mut step.action {
-            (draw.state.depth, draw.state.color) = (Depth::SAME_SURFACE, Some(Blend::Multiply));
+            let bias = draw.state.depth.bias;
+            (draw.state.depth, draw.state.color) = (Depth::SAME_SURFACE.with_bias(bias), Some(Blend::Multiply));
         }
     }
     steps
@@ -443,7 +457,7 @@ pub fn transparent(known: Known<'_>, view: &View, scissor: [u32; 4]) -> Vec<Step
     let Known { scene, pose, .. } = known;
     let nodes: Vec<_> = scene.instances().map(|(node, ..)| node).collect();
     let mut blended: Vec<_> = described(known, view)
-        .filter(|(_, alpha, _)| *alpha == AlphaMode::Blend)
+        .filter(|(kind, alpha, _)| *alpha == AlphaMode::Blend && kind.decal.is_none_or(|decal| decal.ground().is_none()))
         .map(|(kind, _, surface)| {
             let center = pose.world_bounds(scene, nodes[surface.instance]).center();
             (center.as_dvec3().distance_squared(view.camera.eye), kind, surface)
@@ -463,7 +477,7 @@ pub fn transparent(known: Known<'_>, view: &View, scissor: [u32; 4]) -> Vec<Step
         .into_iter()
         .map(|group| {
             let state = State {
-                depth: Depth::NEARER,
+                depth: Depth::NEARER.with_bias(group.bias()),
                 stencil: StencilState::IGNORE,
                 color: Some(Blend::Over),
                 cull: group.kind.cull,
@@ -508,7 +522,17 @@ impl SurfaceGroup {
 
     /// How depth is tested where it is drawn first.
     fn first_depth(&self) -> Depth {
-        if self.kind.laid { Depth::SAME_SURFACE } else { Depth::LAY }
+        (if self.kind.laid { Depth::SAME_SURFACE } else { Depth::LAY }).with_bias(self.bias())
+    }
+
+    /// The ground on which it claims its pixels, by the stencil.
+    pub(super) fn claims(&self) -> Option<usize> {
+        self.kind.decal.and_then(Decal::ground)
+    }
+
+    /// How its depth is moved.
+    fn bias(&self) -> DepthBias {
+        self.kind.decal.map_or(DepthBias::NONE, Decal::bias)
     }
 
     /// What lays its depth alone.
@@ -543,7 +567,7 @@ impl SurfaceGroup {
             program: self.depth_program(),
             look: self.bare_look(),
             target: Target::Scene,
-            state: State { depth, color: None, ..self.again(Blend::Replace, stencil) },
+            state: State { depth: depth.with_bias(self.bias()), color: None, ..self.again(Blend::Replace, stencil) },
             stencil_reference: 0,
             scissor,
             light: None,
@@ -553,9 +577,9 @@ impl SurfaceGroup {
     }
 
     /// Drawn again over its own depth.
-    fn again(&self, blend: Blend, stencil: StencilState) -> State {
+    pub(super) fn again(&self, blend: Blend, stencil: StencilState) -> State {
         State {
-            depth: Depth::SAME_SURFACE,
+            depth: Depth::SAME_SURFACE.with_bias(self.bias()),
             stencil,
             color: Some(blend),
             cull: self.kind.cull,

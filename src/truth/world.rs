@@ -130,6 +130,8 @@ impl World {
                 let material = &scene.materials[primitive.material];
                 let seen = match (material.alpha, material.double_sided) {
                     _ if operand.is_some() => Seen::Never,
+                    // A decal is its ground, but for the colour.
+                    _ if material.decal => Seen::Never,
                     (AlphaMode::Blend, _) => Seen::Never,
                     (_, true) => Seen::FromBothSides,
                     (_, false) => Seen::FromFront,

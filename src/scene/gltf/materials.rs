@@ -23,7 +23,7 @@ pub(super) fn uses(root: &Root) -> Vec<MaterialUse> {
         let base = material.pbr_metallic_roughness.base_color_texture.as_ref();
         MaterialUse {
             uvs: base.map(uv_source).unwrap_or_default(),
-            blended: material.alpha_mode == Checked::Valid(GltfAlpha::Blend),
+            shadeless: material.alpha_mode == Checked::Valid(GltfAlpha::Blend) || flag(&material.extras, "decal") == Some(true),
         }
     };
     root.materials.iter().map(of).chain([MaterialUse::default()]).collect()
@@ -97,6 +97,7 @@ pub(super) fn import(
             unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
             mirror: mirror(&material.extras, named, warnings),
             receiver: receiver(&material.extras, named, warnings),
+            decal: flag(&material.extras, "decal").unwrap_or(false),
         });
     }
     Ok(materials)

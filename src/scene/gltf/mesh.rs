@@ -33,8 +33,8 @@ pub(super) struct UvSource {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct MaterialUse {
     pub uvs: UvSource,
-    /// Blended materials cast no shadows.
-    pub blended: bool,
+    /// Blended materials and decals cast no shadows.
+    pub shadeless: bool,
 }
 
 /// More than anybody makes; each is a weight a node.
@@ -170,7 +170,12 @@ impl Builder<'_> {
 
         let first_index = parts.indices.len() as u32;
         parts.indices.extend(corners.indices.iter().map(|index| index + first_vertex as u32));
-        parts.primitives.push(Primitive { first_index, index_count: new_indices as u32, material, casts_shadow: !used.blended });
+        parts.primitives.push(Primitive {
+            first_index,
+            index_count: new_indices as u32,
+            material,
+            casts_shadow: !used.shadeless,
+        });
         Ok(())
     }
 

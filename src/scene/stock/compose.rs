@@ -12,8 +12,8 @@ use glam::{DMat3, DQuat, DVec3, Vec2, Vec3, Vec4};
 use crate::frame::camera::DEFAULT_NEAR;
 use crate::scene::gltf::{ImportError, load_embedded};
 use crate::scene::{
-    Animation, AnimationChoice, BuiltInSlide, Camera, Channel, Environment, Extent, Interpolation, Light, LightKind, Material,
-    Mesh, MeshParts, Node, Operands, Primitive, Property, Reflective, Scene, Transform,
+    AlphaMode, Animation, AnimationChoice, BuiltInSlide, Camera, Channel, Environment, Extent, Interpolation, Light, LightKind,
+    Material, Mesh, MeshParts, Node, Operands, Primitive, Property, Reflective, Scene, Transform,
 };
 
 macro_rules! model {
@@ -257,6 +257,18 @@ impl Composer {
     /// The same shape marked to take planar shadows.
     pub(super) fn receiving(&mut self, prop: Prop) -> Prop {
         self.remade(prop, |material| material.receiver = true)
+    }
+
+    /// The same shape as a decal, which covers so much of what it lies on; it casts no shadow.
+    pub(super) fn decal(&mut self, prop: Prop, opacity: f32) -> Prop {
+        let prop = self.remade(prop, |material| {
+            material.decal = true;
+            if opacity < 1.0 {
+                material.alpha = AlphaMode::Blend;
+                material.base_color.w = opacity;
+            }
+        });
+        Self::shadeless(prop)
     }
 
     /// The same, casting no shadow: walls and floors with nothing behind them.

@@ -18,6 +18,7 @@ mod halo;
 mod hello2rts;
 mod kaleidoscope;
 mod projector;
+mod runway;
 mod shadowfun;
 mod stairs;
 mod teapots;
@@ -134,6 +135,11 @@ pub static TABLE: &[StockScene] = &[
         name: "figure7",
         about: "a dinosaur on a tile in mid-air, a board behind it, a sun and a lamp: two receivers of planar shadows (Kilgard 1999, figures 6, 7 and 14)",
         build: figure7::build,
+    },
+    StockScene {
+        name: "runway",
+        about: "a runway's markings and an aeroplane's shadow, all in the plane of the ground (Kilgard 1999, figure 18)",
+        build: runway::build,
     },
 ];
 

@@ -82,6 +82,7 @@ fn names_are_unique_and_known() {
             "halo",
             "csg",
             "figure7",
+            "runway",
         ]
     );
     assert!(super::build("courtyard").is_some() && super::build("nowhere").is_none());
@@ -168,7 +169,7 @@ fn movement_has_no_seam() {
 fn triangles_stay_few() {
     let most = [
         75_000, 2_500, 25_000, 8_000, 60_000, 35_000, 35_000, 20_000, 16_000, 20_000, 20_000, 15_000, 18_000, 25_000, 8_000,
-        12_000, 25_000, 20_000, 8_000,
+        12_000, 25_000, 20_000, 8_000, 6_000,
     ];
     assert_eq!(most.len(), TABLE.len());
     for (scene, most) in scenes().iter().zip(most) {
