@@ -228,6 +228,7 @@ pub fn plan(
             frame.name(named, Camera { near: 0.0, ..above.camera }, Target::Output);
         }
         Show::Complexity => frame.draw_complexity(&groups),
+        Show::Rays => frame.draw_rays(),
         Show::Final | Show::Volumes | Show::Wireframe => {
             let darkens = techniques::row(settings.technique).darkens;
             let mut rounds = if frame.is_planar() { Vec::new() } else { frame.rounds() };

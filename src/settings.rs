@@ -312,6 +312,8 @@ pub enum Show {
     Birdseye,
     /// How often each pixel is drawn, in false colour, with a legend.
     Complexity,
+    /// From the side: rays of the eye, with the count along each.
+    Rays,
     /// Shapes drawn into the stencil one after another, in place of the scene.
     Playground,
 }
@@ -352,7 +354,7 @@ named! {
 
 impl Show {
     /// Everything that can be shown, in the order people see them.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Final,
         Self::Stencil,
         Self::Shadow,
@@ -365,6 +367,7 @@ impl Show {
         Self::Surfaces,
         Self::Birdseye,
         Self::Complexity,
+        Self::Rays,
         Self::Playground,
     ];
 
@@ -384,6 +387,7 @@ impl Show {
             Self::Surfaces => "surfaces",
             Self::Birdseye => "birdseye",
             Self::Complexity => "complexity",
+            Self::Rays => "rays",
             Self::Playground => "playground",
         }
     }
@@ -411,6 +415,7 @@ impl Show {
                 "every surface in a colour of its own, another in each mirror: exact values, black where nothing is"
             }
             Self::Birdseye => "from above: the rooms that mirrors make, where they seem to stand, and what is seen of each",
+            Self::Rays => "from the side, cut where the eye looks: some of its rays, with one light's count along each",
             Self::Complexity => "how often each pixel is drawn: depth complexity in false colour, with a legend",
             Self::Playground => "the stencil test to play with: shapes drawn one after another, every state free to choose",
         }
@@ -420,7 +425,7 @@ impl Show {
     #[must_use]
     pub const fn looks_at_light(self) -> bool {
         match self {
-            Self::Stencil | Self::Shadow | Self::Overflow | Self::Volumes | Self::Cases | Self::Bounds => true,
+            Self::Stencil | Self::Shadow | Self::Overflow | Self::Volumes | Self::Cases | Self::Bounds | Self::Rays => true,
             Self::Final
             | Self::Wireframe
             | Self::Views

@@ -13,6 +13,8 @@ use obscura::scene::{LightKind, Scene, stock};
 use obscura::settings::{CameraChoice, Culling, LightBounds, LightEdit, Settings, Show, Technique};
 use obscura::techniques::bounds::EYE;
 use obscura::techniques::cases::Class;
+use obscura::techniques::rays::rays;
+use obscura::truth::World;
 
 const SIZE: [u32; 2] = [640, 360];
 const LAMP: DVec3 = DVec3::new(6.0, 1.0, -4.0);
@@ -325,4 +327,28 @@ fn every_way_to_bound_a_light_gives_the_same_pixels() {
     }
     let [none, others @ ..] = smaller;
     assert!(none == 0 && others.iter().all(|count| *count > 3), "each bounds something somewhere: {smaller:?}");
+}
+
+/// Where a ray of `show rays` ends on a surface, its count is what that pixel's stencil must hold.
+#[test]
+fn rays_end_with_the_count_of_their_pixels() {
+    // The rays go through the middles of pixels.
+    let size = [161, 105];
+    let mut compared = [0; 2];
+    for (name, light) in [("cubes", 0), ("eye-in-shadow", 0), ("hello2rts", 1)] {
+        let scene = stock::build(name).unwrap().unwrap();
+        let settings = Settings { size, light, show: Show::Rays, ..Settings::default() };
+        let (pose, plan) = stage(&settings, &scene, &Capabilities::complete()).unwrap();
+        assert_eq!(plan.views[0].name, "side");
+        let eye = Camera::choose(&settings, &scene, &pose).unwrap();
+        let expected = World::new(&scene, &pose).counts(&eye, &pose.lights[light], size);
+        for ray in rays(&scene, &pose, &eye, light).iter().filter(|ray| ray.hits) {
+            let row = ((1.0 - ray.height) / 2.0 * f64::from(size[1])) as usize;
+            let Some(count) = expected[row * size[0] as usize + 80] else { continue };
+            let found = ray.legs.last().unwrap().1;
+            assert_eq!(found, u32::from(count), "{name}, row {row}: {ray:?}");
+            compared[usize::from(count > 0)] += 1;
+        }
+    }
+    assert!(compared.iter().all(|rays| *rays >= 4), "{compared:?} rays end in light, in shadow");
 }

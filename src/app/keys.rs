@@ -141,7 +141,7 @@ pub static TABLE: &[Row] = &[
     row(
         Group::Picture,
         "V",
-        "next view: final, stencil, shadow, overflow, volumes, cases, bounds, wireframe, views, surfaces, birdseye, complexity, playground",
+        "next view: final, stencil, shadow, overflow, volumes, cases, bounds, wireframe, views, surfaces, birdseye, complexity, rays, playground",
         &[press(Key::V, Command::NextShow)],
     ),
     row(Group::Picture, "L", "next light for stencil, shadow and volumes", &[press(Key::L, Command::NextLight)]),

@@ -103,8 +103,10 @@ impl Frame<'_> {
     /// Plans a view for each mirror that is seen, and for each that is seen in that, as far as the bounces go; and takes
     /// the stencil's bits that tell them apart.
     pub(super) fn plan_views(&mut self) {
-        let shows_mirrors =
-            !matches!(self.settings.show, Show::Overflow | Show::Cases | Show::Bounds | Show::Complexity | Show::Playground);
+        let shows_mirrors = !matches!(
+            self.settings.show,
+            Show::Overflow | Show::Cases | Show::Bounds | Show::Rays | Show::Complexity | Show::Playground
+        );
         let (mirrors, notes) = Mirrors::new(self.scene, self.pose, &self.settings.mirrors);
         self.plan.notes.extend(notes);
         if mirrors.is_empty() || !shows_mirrors {

@@ -2,7 +2,7 @@
 //! draw it.
 //!
 //! [`TABLE`] has a row for each picture, named as the paper names it: a letter for the paper, the figure's number, a letter
-//! for the panel. The scenes are built from captions and text; where a paper shows somebody's model, one of our own
+//! for the panel; `m-f1` is McGuire's figure 1, his images being numbered apart. The scenes are built from captions and text; where a paper shows somebody's model, one of our own
 //! stands for it, and the row says so.
 
 mod rows;

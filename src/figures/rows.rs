@@ -79,6 +79,18 @@ pub static TABLE: &[Figure] = &[
         view: |settings| settings.show = Show::Birdseye,
     },
     Figure {
+        name: "k08",
+        paper: Paper::Kilgard,
+        number: "Figure 8",
+        title: "A slice through a shadow volume",
+        seen: "The scene cut open where the eye looks: the lamp, the hanging slab, and what lies behind it within its volume.",
+        instead: "the live scene, cut open, for a drawing",
+        scene: "teapots",
+        view: |settings| {
+            settings.show = Show::Rays;
+        },
+    },
+    Figure {
         name: "k09a",
         paper: Paper::Kilgard,
         number: "Figure 9, left",
@@ -100,6 +112,19 @@ pub static TABLE: &[Figure] = &[
         instead: "a slab with our own name for the NVIDIA logo",
         scene: "teapots",
         view: |settings| settings.technique = Technique::Cutout,
+    },
+    Figure {
+        name: "k10",
+        paper: Paper::Kilgard,
+        number: "Figure 10",
+        title: "Counting enters and leaves",
+        seen: "Each ray counts one more where it enters a volume and one less where it leaves; where it ends on a surface with 0, that is lit.",
+        instead: "the live scene, cut open, for a drawing",
+        scene: "cubes",
+        view: |settings| {
+            settings.show = Show::Rays;
+            settings.time = 2.0;
+        },
     },
     Figure {
         name: "k11",
@@ -130,6 +155,18 @@ pub static TABLE: &[Figure] = &[
         instead: "letters and balls of our own",
         scene: "hello2rts",
         view: |settings| camera(settings, "left"),
+    },
+    Figure {
+        name: "k13",
+        paper: Paper::Kilgard,
+        number: "Figure 13",
+        title: "Counting several volumes",
+        seen: "Where volumes overlap the count goes on to 2 and more, and is back at 0 only outside of all of them.",
+        instead: "the live scene, cut open, for a drawing",
+        scene: "hello2rts",
+        view: |settings| {
+            settings.show = Show::Rays;
+        },
     },
     Figure {
         name: "k15",
@@ -222,6 +259,18 @@ pub static TABLE: &[Figure] = &[
             settings.show = Show::Complexity;
             settings.complexity = Complexity::Fragments;
             look(settings, [1.3, 1.3, 2.6], [0.05, 0.65, 0.0]);
+        },
+    },
+    Figure {
+        name: "m-f1",
+        paper: Paper::McGuire,
+        number: "Figure 1",
+        title: "Shadow volumes in a plane",
+        seen: "The same, with the eye itself in a shadow: its rays begin with a count that is not 0.",
+        instead: "the live scene, cut open, for a drawing",
+        scene: "eye-in-shadow",
+        view: |settings| {
+            settings.show = Show::Rays;
         },
     },
     Figure {

@@ -104,7 +104,7 @@ fn framing(scene: &Scene, pose: &Pose, eye: &Camera, content: Aabb, [min, max]: 
 }
 
 /// Casters, or whatever there is where nothing casts; the eye; and the lamps that are not far from them.
-fn content(scene: &Scene, pose: &Pose, eye: DVec3) -> Aabb {
+pub(super) fn content(scene: &Scene, pose: &Pose, eye: DVec3) -> Aabb {
     let casters = scene.instances().filter(|(_, node, _)| node.casts_shadow);
     let mut bounds = casters.fold(Aabb::EMPTY, |all, (node, ..)| all.union(&pose.world_bounds(scene, node)));
     if bounds.is_empty() {
@@ -147,7 +147,7 @@ fn lowest_cover(scene: &Scene, pose: &Pose, eye: DVec3, width: f64) -> Option<f6
 
 /// How many times `way` leads from `from` to the triangle; none where it does not meet it ahead (Moeller and
 /// Trumbore 1997).
-fn meets(from: DVec3, way: DVec3, a: DVec3, b: DVec3, c: DVec3) -> Option<f64> {
+pub(super) fn meets(from: DVec3, way: DVec3, a: DVec3, b: DVec3, c: DVec3) -> Option<f64> {
     let normal = way.cross(c - a);
     let determinant = (b - a).dot(normal);
     let across = (from - a).cross(b - a);

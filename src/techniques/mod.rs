@@ -35,6 +35,7 @@ mod parity;
 mod per_polygon;
 pub mod planar;
 pub mod playground;
+pub mod rays;
 pub mod show;
 pub mod surfaces;
 pub mod wide;
