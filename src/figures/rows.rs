@@ -157,18 +157,6 @@ pub static TABLE: &[Figure] = &[
         view: |settings| camera(settings, "left"),
     },
     Figure {
-        name: "k13",
-        paper: Paper::Kilgard,
-        number: "Figure 13",
-        title: "Counting several volumes",
-        seen: "Where volumes overlap the count goes on to 2 and more, and is back at 0 only outside of all of them.",
-        instead: "the live scene, cut open, for a drawing",
-        scene: "hello2rts",
-        view: |settings| {
-            settings.show = Show::Rays;
-        },
-    },
-    Figure {
         name: "k15",
         paper: Paper::Kilgard,
         number: "Figure 15",
