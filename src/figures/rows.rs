@@ -3,7 +3,10 @@
 use glam::DVec3;
 
 use super::{Figure, Paper};
-use crate::settings::{CameraChoice, Complexity, LightBounds, LightEdit, MirrorMode, Operation, Settings, Show, Technique};
+use crate::settings::{
+    CameraChoice, Complexity, DecalMode, HybridPart, LightBounds, LightEdit, MirrorMode, Operation, PlanarMode, Settings, Show,
+    Technique,
+};
 
 /// From here to there.
 fn look(settings: &mut Settings, eye: [f64; 3], target: [f64; 3]) {
@@ -77,6 +80,43 @@ pub static TABLE: &[Figure] = &[
         instead: "",
         scene: "barbershop",
         view: |settings| settings.show = Show::Birdseye,
+    },
+    Figure {
+        name: "k06",
+        paper: Paper::Kilgard,
+        number: "Figure 6",
+        title: "Planar shadows, blended twice",
+        seen: "Where the dinosaur's projected triangles lie over one another the floor is darkened twice: dark patches that jump when it moves.",
+        instead: "a dinosaur of our own",
+        scene: "figure7",
+        view: |settings| {
+            settings.planar.mode = PlanarMode::Naive;
+            look(settings, [0.7, 1.9, 2.3], [0.1, 0.25, 0.0]);
+        },
+    },
+    Figure {
+        name: "k07a",
+        paper: Paper::Kilgard,
+        number: "Figure 7, left",
+        title: "A shadow in mid-air",
+        seen: "Nothing keeps the projected shadow on the tile: it goes on beyond the edge, and is blended twice where triangles overlap.",
+        instead: "a dinosaur of our own",
+        scene: "figure7",
+        view: |settings| {
+            settings.planar.mode = PlanarMode::Naive;
+        },
+    },
+    Figure {
+        name: "k07b",
+        paper: Paper::Kilgard,
+        number: "Figure 7, right",
+        title: "The same with the stencil",
+        seen: "The shadow ends with the tile, and every pixel of it is darkened once.",
+        instead: "a dinosaur of our own",
+        scene: "figure7",
+        view: |settings| {
+            settings.planar.mode = PlanarMode::StencilBlend;
+        },
     },
     Figure {
         name: "k08",
@@ -157,6 +197,57 @@ pub static TABLE: &[Figure] = &[
         view: |settings| camera(settings, "left"),
     },
     Figure {
+        name: "k13",
+        paper: Paper::Kilgard,
+        number: "Figure 13",
+        title: "Counting several volumes",
+        seen: "Seen along the letters, each ray enters one letter's volume after the other and leaves it again: one more, one less, and 0 between them.",
+        instead: "the live scene, cut open, for a drawing",
+        scene: "hello2rts",
+        view: |settings| {
+            settings.show = Show::Rays;
+            look(settings, [4.0, 0.9, -0.6], [-1.0, 1.1, -0.9]);
+        },
+    },
+    Figure {
+        name: "k14a",
+        paper: Paper::Kilgard,
+        number: "Figure 14, top",
+        title: "Volumes and planar shadows together",
+        seen: "The rosette throws a shadow volume, on the dinosaur's back as on floor and board; the dinosaur's and the balls' own shadows are projected.",
+        instead: "a rosette and a dinosaur of our own for the NVIDIA logo and the teapot",
+        scene: "figure7",
+        view: |settings| {
+            settings.planar.mode = PlanarMode::Hybrid;
+        },
+    },
+    Figure {
+        name: "k14b",
+        paper: Paper::Kilgard,
+        number: "Figure 14, left",
+        title: "Volumes alone",
+        seen: "The rosette falls on everything, but dinosaur and balls throw no shadow.",
+        instead: "a rosette and a dinosaur of our own for the NVIDIA logo and the teapot",
+        scene: "figure7",
+        view: |settings| {
+            settings.planar.mode = PlanarMode::Hybrid;
+            settings.planar.hybrid = HybridPart::Volumes;
+        },
+    },
+    Figure {
+        name: "k14c",
+        paper: Paper::Kilgard,
+        number: "Figure 14, right",
+        title: "Planar shadows alone",
+        seen: "Dinosaur and balls throw their shadows on floor and board, but nothing falls on the dinosaur.",
+        instead: "a rosette and a dinosaur of our own for the NVIDIA logo and the teapot",
+        scene: "figure7",
+        view: |settings| {
+            settings.planar.mode = PlanarMode::Hybrid;
+            settings.planar.hybrid = HybridPart::Planar;
+        },
+    },
+    Figure {
         name: "k15",
         paper: Paper::Kilgard,
         number: "Figure 15",
@@ -180,6 +271,30 @@ pub static TABLE: &[Figure] = &[
         instead: "a pilgrim, a ring and an orb for his sphere",
         scene: "halo",
         view: |_| {},
+    },
+    Figure {
+        name: "k18a",
+        paper: Paper::Kilgard,
+        number: "Figure 18, left",
+        title: "Coplanar geometry, fighting",
+        seen: "Runway, markings and the aeroplane's shadow lie in one plane, and depth's last bits decide between them by chance.",
+        instead: "a runway and an aeroplane of our own",
+        scene: "runway",
+        view: |settings| {
+            settings.decals = DecalMode::ZFighting;
+        },
+    },
+    Figure {
+        name: "k18b",
+        paper: Paper::Kilgard,
+        number: "Figure 18, right",
+        title: "The same by the stencil",
+        seen: "Each layer claims its pixels of the ground in the stencil: no offset, no chance.",
+        instead: "a runway and an aeroplane of our own",
+        scene: "runway",
+        view: |settings| {
+            settings.decals = DecalMode::Stencil;
+        },
     },
     Figure {
         name: "k19a",
