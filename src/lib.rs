@@ -82,6 +82,9 @@
 //! `Invert` of the bits in which two levels differ leads from each to the other. Where exact values are shown the order is another: a view's
 //! count comes first, and its mirrors' views then take their pixels over.
 //!
+//! A portal is a mirror with another turn of the eye: a rigid transform to behind its other doorway
+//! ([`frame::Window::turn`](frame::plan::Window::turn)), where what is seen begins.
+//!
 //! What lies behind a mirror's plane is left out fragment by fragment, not by clip distances: a triangle that is cut has
 //! other depths in its last bits than the light cap on it, which nothing cuts. Volumes are never cut; a caster that is not
 //! wholly before the plane is counted by compared z-fail ([`techniques::Caster::surface_covers`]). Batches end in a step

@@ -297,7 +297,7 @@ impl Frame<'_> {
         self.plan.exposure = 1.0;
         for (number, before) in planned.iter().enumerate() {
             let camera = match &before.through {
-                Some(window) => self.plan.views[window.parent].camera.reflected(window.plane),
+                Some(window) => self.plan.views[window.parent].camera.turned(&window.turn),
                 None => above.camera,
             };
             let through = before.through.clone().map(|window| Window { level: 0, ..window });

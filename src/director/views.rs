@@ -182,10 +182,12 @@ impl Grower<'_, '_> {
         let mut found = Vec::new();
         for (number, mirror, posed) in frame.mirrors.posed() {
             let surface = crate::frame::Surface { instance: mirror.instance, primitive: mirror.primitive };
-            if seen_from.through.as_ref().is_some_and(|window| window.surface == surface) {
+            if seen_from.through.as_ref().is_some_and(|window| window.exit == surface) {
                 continue;
             }
-            let Some(reflected) = sight.reflected(&posed.triangles, posed.plane, mirror.double_sided) else { continue };
+            let Some(reflected) = sight.through(&posed.triangles, posed.plane, mirror.double_sided, posed.turn) else {
+                continue;
+            };
             if reflected.area < f64::from(frame.settings.mirrors.least_pixels) {
                 self.too_small += 1;
                 continue;
@@ -197,7 +199,8 @@ impl Grower<'_, '_> {
             let Some(rect) = seen.rect() else { continue };
             let rect = texture.map_or(rect, |[width, height]| [0, 0, width, height]);
             let path: Vec<_> = seen_from.path().iter().copied().chain([number]).collect();
-            let window = Window { parent: at, path, surface, plane: seen.near, slack, level: 0 };
+            let exit = frame.mirrors.exit(mirror);
+            let window = Window { parent: at, path, surface, exit, plane: seen.near, turn: reflected.turn, slack, level: 0 };
             found.push((seen, rect, window, format!("{} > {}", seen_from.name, mirror.name)));
         }
         for (sight, rect, window, name) in found {
@@ -207,7 +210,7 @@ impl Grower<'_, '_> {
                 self.too_many += 1;
                 continue;
             }
-            let camera = seen_from.camera.reflected(window.plane);
+            let camera = seen_from.camera.turned(&window.turn);
             let winding = if camera.mirrored { Winding::Cw } else { Winding::Ccw };
             let kept = texture.map(|_| view - 1);
             let picture = texture.unwrap_or(frame.plan.size);

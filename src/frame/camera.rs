@@ -1,6 +1,6 @@
 //! The eye: where it is, what it sees, and the one projection everything shares.
 
-use glam::{DMat4, DVec2, DVec3, DVec4};
+use glam::{DAffine3, DMat4, DVec2, DVec3, DVec4};
 use thiserror::Error;
 
 use crate::geometry::near_rectangle::{ThroughLight, through_light};
@@ -170,12 +170,17 @@ impl Camera {
     /// What sees the unreflected world as this camera sees it in a mirror on `plane` (unit normal, world space).
     #[must_use]
     pub fn reflected(&self, plane: DVec4) -> Self {
-        let mirror = reflection(plane);
+        self.turned(&reflection(plane))
+    }
+
+    /// This camera carried elsewhere, by a reflection or a rigid transform of the world.
+    #[must_use]
+    pub fn turned(&self, turn: &DAffine3) -> Self {
         Self {
-            eye: mirror.transform_point3(self.eye),
-            forward: mirror.transform_vector3(self.forward),
-            up: mirror.transform_vector3(self.up),
-            mirrored: !self.mirrored,
+            eye: turn.transform_point3(self.eye),
+            forward: turn.transform_vector3(self.forward),
+            up: turn.transform_vector3(self.up),
+            mirrored: self.mirrored != (turn.matrix3.determinant() < 0.0),
             ..*self
         }
     }

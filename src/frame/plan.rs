@@ -114,8 +114,12 @@ pub struct Window {
     pub path: Vec<usize>,
     /// The last mirror's surface.
     pub surface: Surface,
-    /// The mirror's plane, world space, unit normal to the side that reflects: nothing under it is seen.
+    /// Where what is seen begins: the mirror's surface, or of a portal the other doorway's.
+    pub exit: Surface,
+    /// The plane of that, world space, unit normal to the side that is seen: nothing under it is.
     pub plane: DVec4,
+    /// Takes the eye before the mirror to the one that looks through: a reflection, or a portal's rigid transform.
+    pub turn: DAffine3,
     /// Metres over the plane up to which nothing is seen, either: what lies in it is no reflection.
     pub slack: f64,
     /// Its pixels' value in the stencil's mirror bits.

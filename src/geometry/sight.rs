@@ -20,9 +20,9 @@
 //! outline is wider than what was seen by a quarter of a pixel and by what single precision may have moved
 //! the corners.
 
-use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
+use glam::{DAffine3, DMat3, DMat4, DVec2, DVec3, DVec4};
 
-use super::planar::{height, reflection};
+use super::planar::{height, reflection, transformed};
 use super::{Body, clip};
 
 /// One view: what is drawn by `clip_from_world` within `outline` and over `near`.
@@ -49,6 +49,8 @@ pub struct Sight {
 pub struct Reflected {
     /// What is seen in the mirror.
     pub sight: Sight,
+    /// Takes the eye before the mirror to the one that looks through it.
+    pub turn: DAffine3,
     /// What of each of the mirror's triangles is in view, world space.
     pub polygons: Vec<Vec<DVec3>>,
     /// Pixels that `polygons` cover; nothing else hides them yet.
@@ -76,6 +78,12 @@ impl Sight {
     /// through must not be asked for.
     #[must_use]
     pub fn reflected(&self, triangles: &[[DVec3; 3]], plane: DVec4, both_sides: bool) -> Option<Reflected> {
+        self.through(triangles, plane, both_sides, None)
+    }
+
+    /// The same through a portal, whose `turn` takes the eye before it to behind its other doorway.
+    #[must_use]
+    pub fn through(&self, triangles: &[[DVec3; 3]], plane: DVec4, both_sides: bool, turn: Option<DAffine3>) -> Option<Reflected> {
         let over = height(plane, self.eye);
         let (plane, over) = if both_sides && over < 0.0 { (-plane, -over) } else { (plane, over) };
         let corners = triangles.as_flattened();
@@ -106,17 +114,18 @@ impl Sight {
         let weight = |row: DVec4| corners.iter().map(|corner| row.abs().dot(corner.abs().extend(1.0))).fold(0.0, f64::max);
         let moved = ROUNDING * (weight(across) + weight(down) + weight(depth) * size) / nearest;
         let hull = clip::hull(&mut on_screen.concat());
-        let mirror = reflection(plane);
+        let near = turn.map_or(plane, |turn| -transformed(plane, &turn));
+        let turn = turn.unwrap_or_else(|| reflection(plane));
         let sight = Self {
-            eye: mirror.transform_point3(self.eye),
-            clip_from_world: self.clip_from_world * DMat4::from(mirror),
+            eye: turn.transform_point3(self.eye),
+            clip_from_world: self.clip_from_world * DMat4::from(turn.inverse()),
             bounces: self.bounces + 1,
-            near: plane,
+            near,
             outline: widened(&hull, 0.25 + moved)?,
             size: self.size,
         };
         sight.rect()?;
-        Some(Reflected { sight, area: on_screen.iter().map(|polygon| clip::area(polygon).abs()).sum(), polygons })
+        Some(Reflected { sight, turn, area: on_screen.iter().map(|polygon| clip::area(polygon).abs()).sum(), polygons })
     }
 
     /// The pixels (x, y, width, height from the top left) within the outline's bounds; `None` where there

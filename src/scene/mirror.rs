@@ -4,10 +4,13 @@
 //! way ([`crate::geometry::planar`]); shape and number do not matter. What is not is drawn as an ordinary
 //! surface, and the scene says why. Bones and morph targets may bend a mirror: then it is asked anew in
 //! each pose.
+//!
+//! A portal is a mirror that does not turn the eye back but takes it elsewhere: to behind another doorway, by a rigid
+//! transform in the reflection's place. All else is the same, so it is a mirror here, with an exit.
 
 use std::fmt;
 
-use glam::{DVec3, DVec4, Vec3};
+use glam::{DAffine3, DMat3, DVec3, DVec4, Vec3};
 use thiserror::Error;
 
 use super::{AlphaMode, Mesh, Node, Pose, Scene};
@@ -47,6 +50,9 @@ pub struct Mirror {
     pub double_sided: bool,
     /// How much, and in what colour.
     pub look: Reflective,
+    /// The node of the doorway that it leads to, for a portal: it then shows what is before that one, instead of what is
+    /// before itself.
+    pub exit: Option<usize>,
 }
 
 /// A mirror in the world, at one point in time.
@@ -56,6 +62,8 @@ pub struct PosedMirror {
     pub plane: DVec4,
     /// In the mesh's order.
     pub triangles: Vec<[DVec3; 3]>,
+    /// Of a portal: takes an eye before it to where it looks out of the other doorway from, a rotation and a move.
+    pub turn: Option<DAffine3>,
 }
 
 /// Why a surface is no mirror.
@@ -70,6 +78,12 @@ pub enum Refusal {
     /// Masked texels would have to be holes in the reflection.
     #[error("its material has holes (alpha mask)")]
     Masked,
+    /// A portal whose other doorway is none.
+    #[error("it leads to no doorway")]
+    NoExit,
+    /// A portal whose two doorways differ by more than their places.
+    #[error("its two doorways are not of one size")]
+    Resized,
     /// Not on one plane.
     #[error(transparent)]
     Uneven(#[from] Uneven),
@@ -102,7 +116,9 @@ impl Mirror {
         let triangles = mesh.triangles(primitive).map(|corners| corners.map(|vertex| mesh.positions[vertex as usize]));
         let plane = planar::plane_of(triangles, material.double_sided)?;
         let double_sided = material.double_sided;
-        Ok(Self { name: shown.name.clone(), node, instance, primitive, plane, double_sided, look })
+        // A doorway has a front.
+        let (exit, double_sided) = (shown.portal, double_sided && shown.portal.is_none());
+        Ok(Self { name: shown.name.clone(), node, instance, primitive, plane, double_sided, look, exit })
     }
 
     /// Where it is in a pose of its scene.
@@ -110,7 +126,23 @@ impl Mirror {
     /// # Errors
     /// Its bones or morph targets have bent it.
     pub fn posed(&self, scene: &Scene, pose: &Pose) -> Result<PosedMirror, Refusal> {
-        posed(scene, pose, (self.node, self.primitive), (self.plane, self.double_sided))
+        let posed = posed(scene, pose, (self.node, self.primitive), (self.plane, self.double_sided))?;
+        Ok(PosedMirror { turn: self.exit.map(|exit| self.turn(pose, exit)).transpose()?, ..posed })
+    }
+
+    /// From before this doorway to behind the other, whose node's axes stand for its own turned about.
+    fn turn(&self, pose: &Pose, exit: usize) -> Result<DAffine3, Refusal> {
+        /// What rounding may make of a length of one.
+        const RIGID: f64 = 1e-6;
+        let (from, to) = (pose.world_from_node.get(self.node), pose.world_from_node.get(exit));
+        let (from, to) = from.zip(to).ok_or(Refusal::NoExit)?;
+        let turn = *to * DAffine3::from_rotation_y(std::f64::consts::PI) * from.inverse();
+        let axes = turn.matrix3;
+        let off = (axes.transpose() * axes - DMat3::IDENTITY)
+            .to_cols_array()
+            .into_iter()
+            .fold(0.0, |most: f64, part| most.max(part.abs()));
+        if off.is_nan() || off > RIGID || axes.determinant() < 0.0 { Err(Refusal::Resized) } else { Ok(turn) }
     }
 }
 
@@ -132,6 +164,7 @@ pub(super) fn posed(
     Ok(PosedMirror {
         plane: planar::transformed(plane, world_from_object),
         triangles: triangles.map(|corners| corners.map(in_world)).collect(),
+        turn: None,
     })
 }
 
@@ -191,7 +224,12 @@ impl Scene {
         for (instance, (node, shown, mesh)) in self.instances().enumerate() {
             for (primitive, run) in mesh.primitives.iter().enumerate() {
                 let Some(material) = self.materials.get(run.material) else { continue };
-                let Some(look) = material.mirror else { continue };
+                let doorway = (shown.portal.is_some() && primitive == 0).then(Reflective::default);
+                let Some(look) = doorway.or(material.mirror) else { continue };
+                if shown.portal.is_some_and(|exit| self.nodes.get(exit).is_none_or(|exit| exit.portal.is_none())) {
+                    refused.push(format!("node {:?}: no portal: {}", shown.name, Refusal::NoExit));
+                    continue;
+                }
                 match Mirror::shown(self, (instance, node, shown, mesh), primitive, look) {
                     Ok(mirror) => mirrors.push(mirror),
                     Err(why) => {
@@ -213,6 +251,9 @@ impl fmt::Display for Mirror {
         }
         if self.double_sided {
             write!(f, ", both sides")?;
+        }
+        if let Some(exit) = self.exit {
+            write!(f, ", a doorway to node {exit}")?;
         }
         write!(f, ")")
     }

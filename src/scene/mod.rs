@@ -94,6 +94,9 @@ pub struct Node {
     pub casts_shadow: bool,
     /// It has a halo, with all that hangs on it: `extras` say `{"halo": true}`.
     pub halo: bool,
+    /// The node of the doorway that this one leads to: a portal, where both lie on one plane each. `extras` say
+    /// `{"portal": "that node's name"}`.
+    pub portal: Option<usize>,
 }
 
 impl Default for Node {
@@ -107,6 +110,7 @@ impl Default for Node {
             morph_weights: Vec::new(),
             casts_shadow: true,
             halo: false,
+            portal: None,
         }
     }
 }

@@ -74,7 +74,7 @@ impl Pose {
             for (number, (mirror, posed)) in mirrors.iter().zip(&posed).enumerate() {
                 let room = ON_THE_PLANE * largest.max(light.position.abs().max_element());
                 let room = if light.kind == LightKind::Directional { ON_THE_PLANE } else { room };
-                let plane = posed.as_ref().and_then(|posed| match light.over(posed.plane) {
+                let plane = posed.as_ref().filter(|posed| posed.turn.is_none()).and_then(|posed| match light.over(posed.plane) {
                     over if over > room => Some(posed.plane),
                     over if over < -room && mirror.double_sided => Some(-posed.plane),
                     _ => None,

@@ -72,7 +72,8 @@ impl Receiver {
     pub fn posed(&self, scene: &Scene, pose: &Pose) -> Result<PosedReceiver, Refusal> {
         /// Of the largest coordinate: sixteen halves of a last digit of single precision.
         const ROUNDING: f64 = 1e-6;
-        let PosedMirror { plane, triangles } = posed(scene, pose, (self.node, self.primitive), (self.plane, self.double_sided))?;
+        let PosedMirror { plane, triangles, .. } =
+            posed(scene, pose, (self.node, self.primitive), (self.plane, self.double_sided))?;
         let mut corners = triangles.iter().flatten();
         let off = corners.clone().map(|corner| height(plane, *corner).abs()).fold(0.0, f64::max);
         let largest = corners.by_ref().fold(DVec3::ZERO, |largest, corner| largest.max(corner.abs())).max_element();

@@ -22,7 +22,7 @@ use crate::frame::plan::View;
 use crate::frame::{Camera, Stroke};
 use crate::geometry::Sight;
 use crate::geometry::clip::hull;
-use crate::geometry::planar::{height, reflection};
+use crate::geometry::planar::height;
 use crate::scene::Pose;
 use crate::settings::LightBounds;
 
@@ -31,7 +31,7 @@ use crate::settings::LightBounds;
 pub fn seeming(views: &[View]) -> Vec<DAffine3> {
     let mut all: Vec<DAffine3> = Vec::new();
     for view in views {
-        let place = view.through.as_ref().map_or(DAffine3::IDENTITY, |window| all[window.parent] * reflection(window.plane));
+        let place = view.through.as_ref().map_or(DAffine3::IDENTITY, |window| all[window.parent] * window.turn.inverse());
         all.push(place);
     }
     all
@@ -53,10 +53,10 @@ pub fn strokes(
     let mut strokes = Vec::new();
     map.frustum(&mut strokes);
     let places = seeming(views);
-    for (view, sight) in views.iter().zip(sights) {
+    for ((view, sight), place) in views.iter().zip(sights).zip(&places) {
         let Some(window) = &view.through else { continue };
         let [r, g, b] = color(&window.path);
-        let plane = carried(window.plane, &places[window.parent]);
+        let plane = carried(window.plane, place);
         let mut border = Vec::new();
         for corner in &sight.outline {
             let towards = eye.eye + through_pixel(eye, *corner, size);
@@ -101,6 +101,7 @@ mod tests {
     use crate::frame::Surface;
     use crate::frame::plan::Window;
     use crate::frame::state::Winding;
+    use crate::geometry::planar::reflection;
 
     #[test]
     fn rooms_stand_behind_their_mirrors() {
@@ -117,6 +118,8 @@ mod tests {
                 parent,
                 path: vec![0],
                 surface: Surface { instance: 0, primitive: 0 },
+                exit: Surface { instance: 0, primitive: 0 },
+                turn: reflection(plane),
                 plane,
                 slack: 0.0,
                 level: 0,

@@ -80,6 +80,14 @@ impl Mirrors {
         self.list.iter().enumerate().filter_map(|(number, (mirror, posed))| Some((number, mirror, posed.as_ref()?)))
     }
 
+    /// Where what a mirror shows begins: at itself, or for a portal at its other doorway.
+    #[must_use]
+    pub fn exit(&self, mirror: &Mirror) -> Surface {
+        let other = self.list.iter().map(|(other, _)| other).find(|other| Some(other.node) == mirror.exit);
+        let Mirror { instance, primitive, .. } = *other.unwrap_or(mirror);
+        Surface { instance, primitive }
+    }
+
     /// The number of the mirror that a surface is.
     #[must_use]
     pub fn of(&self, surface: Surface) -> Option<usize> {

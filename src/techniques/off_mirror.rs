@@ -108,7 +108,7 @@ pub fn more_ambient(scene: &Scene, pose: &Pose, mirrors: &Mirrors) -> Vec3 {
         return Vec3::ZERO;
     }
     let mut ambient = Vec3::ZERO;
-    for (_, mirror, posed) in mirrors.posed() {
+    for (_, mirror, posed) in mirrors.posed().filter(|(_, mirror, _)| mirror.exit.is_none()) {
         for [a, b, c] in &posed.triangles {
             let area = (b - a).cross(c - a).length() / 2.0;
             let middle = (a + b + c) / 3.0;

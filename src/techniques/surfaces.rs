@@ -111,7 +111,7 @@ pub fn opaque_groups(known: Known<'_>, view: &View, size: [u32; 2], texturing: T
 
 pub(super) fn described<'a>(known: Known<'a>, view: &'a View) -> impl Iterator<Item = (Kind, AlphaMode, Surface)> + 'a {
     let Known { scene, pose, mirrors, decals, places } = known;
-    let through = view.through.as_ref().map(|window| window.surface);
+    let through = view.through.as_ref().map(|window| window.exit);
     let described = scene.instances().enumerate().flat_map(move |(instance, (node, _, mesh))| {
         let winding = view.winding.through(pose.world_from_object[node].matrix3.determinant());
         let role = scene.solid.as_ref().map_or(Role::Object, |solid| solid.role(instance));

@@ -4,14 +4,14 @@
 //! the reflected eye through the mirror's plane, and what it meets is met where it really is. The module's
 //! page ([`super`]) has the picture.
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DAffine3, DVec2, DVec3, DVec4};
 
 use super::mask::Mask;
 use super::path::Path;
 use super::tree::{Bundle, Stack};
 use super::world::{Face, NONE, Seen, Towards, World};
 use crate::frame::Camera;
-use crate::geometry::planar::{height, reflection};
+use crate::geometry::planar::height;
 use crate::settings::MAX_BOUNCES;
 
 /// The places in a pixel where surfaces are looked for, pixels from its centre.
@@ -51,7 +51,7 @@ pub struct Eye {
     through: Option<Window>,
 }
 
-/// The mirror that a reflected eye looks through.
+/// Where what an eye sees begins that looks through a mirror, or out of a portal's other doorway.
 #[derive(Debug, Clone, Copy)]
 struct Window {
     mirror: u32,
@@ -69,14 +69,14 @@ impl Eye {
         Self { at: camera.eye, forward: camera.forward, pixel: [right, down], near: camera.near, size, through: None }
     }
 
-    /// The eye behind a mirror, which it looks through.
-    fn reflected(&self, mirror: u32, plane: DVec4) -> Self {
-        let reflection = reflection(plane);
+    /// The eye behind a mirror, which it looks through, or behind a portal's other doorway: what is seen begins at the
+    /// `exit`, on its plane.
+    fn turned(&self, turn: &DAffine3, exit: u32, plane: DVec4) -> Self {
         Self {
-            at: reflection.transform_point3(self.at),
-            forward: reflection.transform_vector3(self.forward),
-            pixel: self.pixel.map(|step| reflection.transform_vector3(step)),
-            through: Some(Window { mirror, plane }),
+            at: turn.transform_point3(self.at),
+            forward: turn.transform_vector3(self.forward),
+            pixel: self.pixel.map(|step| turn.transform_vector3(step)),
+            through: Some(Window { mirror: exit, plane }),
             ..*self
         }
     }
@@ -172,9 +172,9 @@ impl World {
             let last = path.mirrors().len() >= bounces.min(MAX_BOUNCES) as usize;
             match if last { Towards::Back } else { self.towards(mirror, eye.at) } {
                 Towards::Unsure => return None,
-                Towards::Front(plane) => {
+                Towards::Front { turn, plane, exit } => {
                     path.push(mirror);
-                    eye = eye.reflected(mirror, plane);
+                    eye = eye.turned(&turn, exit, plane);
                 }
                 Towards::Back if self.outlined(&eye, &directions, &nearest) => return None,
                 Towards::Back => {

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DAffine3, DVec2, DVec3, DVec4};
 
 use super::mask::Masks;
 use super::solid::Combined;
 use super::tree::Tree;
 use crate::geometry::Aabb;
-use crate::geometry::planar::height;
+use crate::geometry::planar::{height, reflection, transformed};
 use crate::scene::{AlphaMode, Mesh, Mirror, Pose, Scene};
 
 /// The number of no face, no instance, no mirror.
@@ -40,13 +40,24 @@ pub struct Glass {
     /// Unit normal to the reflecting side, and offset; none for what is no mirror in this pose.
     plane: Option<DVec4>,
     both_sides: bool,
+    /// Of a portal: takes the eye to behind its other doorway.
+    turn: Option<DAffine3>,
+    /// The number of that doorway.
+    exit: u32,
 }
 
 /// A mirror as an eye has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Towards {
-    /// It reflects: its plane, with the eye on the side of the normal.
-    Front(DVec4),
+    /// It reflects, or leads on, to another eye.
+    Front {
+        /// From this eye to that.
+        turn: DAffine3,
+        /// Of what is seen: unit normal towards it.
+        plane: DVec4,
+        /// The mirror that it begins at, which is not seen.
+        exit: u32,
+    },
     /// It is a surface as any other.
     Back,
     /// The eye is on its plane.
@@ -162,9 +173,15 @@ impl World {
         let bounds = scene.bounds(pose);
         let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
         let largest = if largest.is_finite() { f64::from(largest) } else { 0.0 };
-        let glass = |mirror: &Mirror| Glass {
-            plane: mirror.posed(scene, pose).ok().map(|posed| posed.plane),
-            both_sides: mirror.double_sided,
+        let glass = |mirror: &Mirror| {
+            let posed = mirror.posed(scene, pose).ok();
+            let exit = mirrors.iter().position(|other| Some(other.node) == mirror.exit);
+            Glass {
+                plane: posed.as_ref().map(|posed| posed.plane),
+                both_sides: mirror.double_sided,
+                turn: posed.and_then(|posed| posed.turn),
+                exit: exit.and_then(|exit| u32::try_from(exit).ok()).unwrap_or(NONE),
+            }
         };
         Self {
             tree: Tree::new(&boxes),
@@ -201,12 +218,18 @@ impl World {
 
     /// A mirror, by its number, as seen from `eye`.
     pub(super) fn towards(&self, mirror: u32, eye: DVec3) -> Towards {
-        let Some(&Glass { plane: Some(plane), both_sides }) = self.mirrors.get(mirror as usize) else { return Towards::Back };
+        let Some(&Glass { plane: Some(plane), both_sides, turn, exit }) = self.mirrors.get(mirror as usize) else {
+            return Towards::Back;
+        };
         let room = ON_THE_PLANE * self.largest.max(eye.abs().max_element());
+        let front = |plane: DVec4| match turn {
+            None => Towards::Front { turn: reflection(plane), plane, exit: mirror },
+            Some(turn) => Towards::Front { turn, plane: -transformed(plane, &turn), exit },
+        };
         match height(plane, eye) {
             over if over.abs() <= room => Towards::Unsure,
-            over if over > 0.0 => Towards::Front(plane),
-            _ if both_sides => Towards::Front(-plane),
+            over if over > 0.0 => front(plane),
+            _ if both_sides => front(-plane),
             _ => Towards::Back,
         }
     }

@@ -25,7 +25,7 @@ pub(super) fn check(plan: &FramePlan, view: usize, draw: &Draw, state: &mut Prog
     if view == 0 {
         return check_draw(plan, draw, state);
     }
-    let parity = if plan.views[view].path().len() % 2 == 1 { Winding::Cw } else { Winding::Ccw };
+    let parity = if plan.views[view].camera.mirrored { Winding::Cw } else { Winding::Ccw };
     if plan.views[view].winding != parity {
         return Err("its view's winding is not that of so many mirrors");
     }

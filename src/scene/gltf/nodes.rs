@@ -9,6 +9,7 @@ use gltf::json::{Index, Node as GltfNode, Root};
 
 use super::accessor::{self, Store};
 use super::error::{AccessorError, Problem, Warnings, name, part};
+use super::lights::extra;
 use super::materials::flag;
 use crate::scene::{Node, Skin, Transform};
 
@@ -193,9 +194,19 @@ pub(super) fn import(
             morph_weights,
             casts_shadow: flag(&node.extras, "casts_shadow").unwrap_or(true),
             halo: flag(&node.extras, "halo").unwrap_or(false),
+            portal: None,
         })
     };
-    hierarchy.order.iter().enumerate().map(node).collect()
+    let mut nodes: Vec<Node> = hierarchy.order.iter().enumerate().map(node).collect::<Result<_, _>>()?;
+    for (at, &index) in hierarchy.order.iter().enumerate() {
+        let Some(exit) = extra(&root.nodes[index].extras, "portal") else { continue };
+        let found = exit.as_str().and_then(|exit| nodes.iter().position(|other| other.name == exit));
+        if found.is_none() {
+            warnings.push(format!("{}: its `portal` is no other node's name, and it is none", named(root, index)));
+        }
+        nodes[at].portal = found;
+    }
+    Ok(nodes)
 }
 
 fn animated(root: &Root) -> Vec<bool> {

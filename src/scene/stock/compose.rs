@@ -286,6 +286,12 @@ impl Composer {
         self.scene.operands = Some(operands);
     }
 
+    /// Two doorways lead to each other.
+    pub(super) fn joins(&mut self, [one, other]: [usize; 2]) {
+        self.scene.nodes[one].portal = Some(other);
+        self.scene.nodes[other].portal = Some(one);
+    }
+
     /// A node glows, with all that hangs on it.
     pub(super) fn halo(&mut self, node: usize) {
         self.scene.nodes[node].halo = true;

@@ -17,6 +17,7 @@ mod grid;
 mod halo;
 mod hello2rts;
 mod kaleidoscope;
+mod portals;
 mod projector;
 mod runway;
 mod shadowfun;
@@ -120,6 +121,11 @@ pub static TABLE: &[StockScene] = &[
         name: "kaleidoscope",
         about: "the eye inside a triangle of three mirrors, bright toys turning at its end",
         build: kaleidoscope::build,
+    },
+    StockScene {
+        name: "portals",
+        about: "doorways that lead elsewhere: out of a study to a terrace by night, and across it into itself without end",
+        build: portals::build,
     },
     StockScene {
         name: "halo",

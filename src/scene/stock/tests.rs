@@ -79,6 +79,7 @@ fn names_are_unique_and_known() {
             "terraces",
             "figure3",
             "kaleidoscope",
+            "portals",
             "halo",
             "csg",
             "figure7",
@@ -169,7 +170,7 @@ fn movement_has_no_seam() {
 fn triangles_stay_few() {
     let most = [
         75_000, 2_500, 25_000, 8_000, 60_000, 35_000, 35_000, 20_000, 16_000, 20_000, 20_000, 15_000, 18_000, 25_000, 8_000,
-        12_000, 25_000, 20_000, 8_000, 6_000,
+        12_000, 30_000, 25_000, 20_000, 8_000, 6_000,
     ];
     assert_eq!(most.len(), TABLE.len());
     for (scene, most) in scenes().iter().zip(most) {
@@ -183,7 +184,7 @@ fn triangles_stay_few() {
 #[test]
 fn mirrors_are_where_they_are_meant_to_be() {
     let count = |name: &str| match name {
-        "gallery" => 4,
+        "gallery" | "portals" => 4,
         "barbershop" | "corridor" | "terraces" => 2,
         "kaleidoscope" => 3,
         "figure3" | "halo" => 1,
@@ -194,7 +195,7 @@ fn mirrors_are_where_they_are_meant_to_be() {
         for time in [0.0, 4.3] {
             let pose = posed(&scene, time);
             for mirror in &scene.mirrors {
-                let PosedMirror { plane, triangles } = mirror.posed(&scene, &pose).unwrap();
+                let PosedMirror { plane, triangles, .. } = mirror.posed(&scene, &pose).unwrap();
                 let off = triangles.iter().flatten().map(|corner| height(plane, *corner).abs()).fold(0.0, f64::max);
                 assert!(off < 1e-6, "{}: {} is {off} m off its plane", scene.name, mirror.name);
                 let eyes = scene.cameras.iter().map(|camera| pose.world_from_node[camera.node].translation);
