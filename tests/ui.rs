@@ -329,9 +329,9 @@ fn planar_shadows_are_chosen_and_told() {
         click(&mut harness, title);
         assert_eq!(planar(&harness), Planar { mode, ..default.clone() });
     }
-    click(&mut harness, "Volumes");
+    click(&mut harness, "Volumes alone");
     assert_eq!(planar(&harness).hybrid, HybridPart::Volumes);
-    click(&mut harness, "Both");
+    click(&mut harness, "Both kinds");
     click(&mut harness, "No planar shadows");
     assert_eq!(planar(&harness), default);
     for receiver in harness.state().scene.receivers.clone() {

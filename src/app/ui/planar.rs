@@ -24,6 +24,15 @@ const fn title(mode: PlanarMode) -> &'static str {
     }
 }
 
+/// The same of what is drawn of the hybrid.
+const fn part_title(part: HybridPart) -> &'static str {
+    match part {
+        HybridPart::Both => "Both kinds",
+        HybridPart::Volumes => "Volumes alone",
+        HybridPart::Planar => "Planar alone",
+    }
+}
+
 /// The settings, and the list of receivers.
 pub fn planar(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'_>) {
     let on = is_on(desk.settings);
@@ -42,7 +51,7 @@ pub fn planar(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'
             ui.label(RichText::new("Drawn of it").color(style::WEAK));
             style::tight(ui);
             for part in HybridPart::ALL {
-                let response = ui.selectable_label(settings.hybrid == part, capital(part.name()));
+                let response = ui.selectable_label(settings.hybrid == part, part_title(part));
                 if response.on_hover_text(capital(part.about())).clicked() {
                     settings.hybrid = part;
                 }
