@@ -140,6 +140,11 @@
 //!         r r V [ count ]        the same beside volumes: V, shadowed by what is projected
 //! ```
 //!
+//! Decals have one bit for as long as they are drawn, before the lights or after them ([`techniques::decals`]): it is free
+//! again when their ground is unmarked. Depth complexity and the playground have a frame, and all eight bits, to
+//! themselves: a clamped count knows no fields ([`techniques::complexity`]), and who plays may choose any mask
+//! ([`techniques::playground`]).
+//!
 //! [`frame::stencil`] owns them; no other code writes a mask. Counting wraps, so the order of faces does
 //! not matter, and a clear may set any starting value. A multiple of the field's size would be taken for
 //! none: the plan bounds how many volumes can lie over one pixel ([`geometry::overlap`]), and where that

@@ -12,7 +12,7 @@ use crate::figures;
 use crate::frame::{Capabilities, FramePlan};
 use crate::scene::open::{Loading, load_on_thread};
 use crate::scene::{Pose, Scene, doctor, stock};
-use crate::settings::{Failure, SceneChoice, Settings};
+use crate::settings::{Failure, SceneChoice, Settings, Show};
 use crate::techniques::complexity::Tally;
 use store::{Preferences, Store};
 
@@ -281,7 +281,8 @@ impl Session {
     /// Whether the picture will look different in a moment.
     pub fn moves(&self) -> bool {
         let moving = |loaded: &Loaded| ui::moves(&loaded.scene, self.settings.animation);
-        self.preferences.clock.playing && self.loaded.as_ref().is_some_and(moving)
+        // The playground has no time.
+        self.preferences.clock.playing && self.settings.show != Show::Playground && self.loaded.as_ref().is_some_and(moving)
     }
 
     /// Whether the picture has to be drawn again.

@@ -199,7 +199,8 @@ fn copy(ui: &mut Ui, panel: &mut Panel, board: &Board) {
     if ui.button("Copy calls").on_hover_text("The calls that set all of these states, to the clipboard").clicked() {
         ui.ctx().copy_text(text.clone());
     }
-    egui::ScrollArea::both().id_salt("calls").max_height(220.0).auto_shrink([false, true]).show(ui, |ui| {
+    let lines = egui::ScrollArea::both().id_salt("calls").max_height(220.0).min_scrolled_height(220.0);
+    lines.auto_shrink([false, true]).show(ui, |ui| {
         ui.add(egui::Label::new(RichText::new(text).monospace().size(10.5)).extend());
     });
 }
