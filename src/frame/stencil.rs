@@ -19,7 +19,7 @@
 //!         r r r r r r r s        which receiver of planar shadows; shadowed, or lit the round before
 //!         r r V [ count ]        the same beside volumes: V, shadowed by what is projected
 //!
-//! All of them (receivers' apart: [`receivers`]) are zero where the light shines, so that one comparison with zero asks for all.
+//! All of them (receivers' apart: `frame::stencil::receivers`) are zero where the light shines, so that one comparison with zero asks for all.
 //!
 //! A light whose volumes could lie over one pixel more often than the field can tell apart is counted
 //! in batches ([`BitBudget::batched`]): after each, one full-screen step ([`StencilState::collapse`])
