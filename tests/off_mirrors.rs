@@ -183,7 +183,8 @@ fn more_ambient_light_is_what_comes_off_spread_evenly() {
 fn random_views_of_light_off_mirrors_are_exact() {
     for row in stock::TABLE {
         let scene = stock::build(row.name).unwrap().unwrap();
-        if scene.mirrors.is_empty() {
+        // Light does not pass portals.
+        if scene.mirrors.iter().all(|mirror| mirror.exit.is_some()) {
             continue;
         }
         let mirrors = Mirrors { bounces: 2, light: MirrorLight::Virtual, ..Mirrors::default() };

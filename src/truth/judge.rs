@@ -220,10 +220,9 @@ impl<'a> Caster<'a> {
         // corners to the nearest 256th of a pixel, may give the pixel to the one and the edge of a volume
         // that begins there to the other.
         let (depth, moved) = (nearest[0].depth, NUDGE * self.world.size);
-        let least = moved / depth;
-        let [across, along] = eye.pixel.map(|pixel| pixel.normalize() * least.max(self.world.outlined_by() * pixel.length()));
-        let sideways = SIDEWAYS.map(|by| directions[0] + across * by.x + along * by.y);
-        let again = self.world.meet(eye, sideways, across.length().max(along.length()), &mut self.stack);
+        let [across, along] = eye.pixel.map(DVec3::normalize);
+        let sideways = SIDEWAYS.map(|by| directions[0] + (across * by.x + along * by.y) * (moved / depth));
+        let again = self.world.meet(eye, sideways, moved / depth, &mut self.stack);
         if again.iter().any(|met| met.face != nearest[0].face) {
             return None;
         }

@@ -50,8 +50,7 @@
 //!
 //! They are claimed to be right on their receivers, and nowhere else: of other surfaces there is no verdict
 //! ([`World::of_receivers`]). What casts is the same, so a receiver is asked about all the scene's casters, its own mesh
-//! among them. A planar shadow's border is an outline, and within a 128th of a pixel of the centre it is an edge: five
-//! places of the pixel may all miss a gap between two shadows that is narrower than they are apart.
+//! among them.
 //!
 //! # Mirrors
 //!

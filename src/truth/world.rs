@@ -204,12 +204,6 @@ impl World {
         self
     }
 
-    /// How far a shadow's border may be off where a rasteriser draws it as an outline, pixels: a planar shadow ends with its
-    /// triangles, whose corners are moved to the nearest 256th of a pixel. A volume's border is where two depths meet.
-    pub(super) fn outlined_by(&self) -> f64 {
-        if self.asked.is_some() { 1.0 / 128.0 } else { 0.0 }
-    }
-
     /// Whether verdicts are asked about a face.
     pub(super) fn asks_about(&self, face: u32) -> bool {
         let Face { instance, primitive, .. } = self.faces[face as usize];
