@@ -125,6 +125,9 @@ fn only_what_reaches_through_the_mirror_is_cut() {
     assert!(matches!(of(1, 2)[..], [(Piece::Before { .. }, false), (Piece::Before { .. }, true)]), "{:?}", of(1, 2));
     assert!(matches!(of(1, 1)[..], [(Piece::Whole, false), (Piece::Whole, true)]), "{:?}", of(1, 1));
     assert!(matches!(of(1, 0)[..], [(Piece::Primitive(0), false)]), "the beam: {:?}", of(1, 0));
+    // The beam's batch has a bit of its own, below the mirror's.
+    let bits = plan.bits_in_use();
+    assert_eq!((plan.budget.verdict_mask, bits.mirror_mask, bits.verdict_mask, bits.count_mask), (0, 0x80, 0x40, 0x3f));
 }
 
 /// Where there is light off the mirror the picture is brighter, by as much as the light is, and nowhere else.

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::camera::Camera;
 use super::state::Winding;
-use super::stencil::BitBudget;
+use super::stencil::{BitBudget, StencilState};
 use super::step::{Action, Draw, DrawSet, Part, Step, Surface};
 use super::validate::Rule;
 use crate::geometry::cutout::{CutoutPlane, Throw};
@@ -478,6 +478,15 @@ impl Reason {
 }
 
 impl FramePlan {
+    /// Who owns which stencil bits, the verdict's included where some light is counted in batches.
+    #[must_use]
+    pub fn bits_in_use(&self) -> BitBudget {
+        let batched = self.budget.batched();
+        let collapse = StencilState::collapse(batched);
+        let verdict = |draw: &Draw| draw.state.stencil == collapse;
+        if self.draws().any(|(_, draw)| verdict(draw)) { batched } else { self.budget }
+    }
+
     /// What bounds a light in depth, where that is marked in the stencil.
     #[must_use]
     pub fn depth_bounds(&self, light: usize) -> Option<&Enclosure> {

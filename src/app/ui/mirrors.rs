@@ -69,7 +69,7 @@ pub fn mirrors(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<
     if let Some(plan) = view.plan {
         let names: Vec<_> = plan.views.iter().take(MOST_NAMED).map(|view| view.name.as_str()).collect();
         explain(ui, cost(plan)).on_hover_text(names.join("\n"));
-        bits(ui, plan.budget);
+        bits(ui, plan.bits_in_use());
     }
     let key = crate::app::keys::key_of(crate::app::keys::Command::MakeMirrors).unwrap_or_default();
     let tip = "While this is on, a click on a flat surface of the picture makes it a mirror, and a mirror none";

@@ -62,7 +62,7 @@ pub fn planar(ui: &mut Ui, panel: &mut Panel, desk: &mut Desk<'_>, view: &View<'
         explain(ui, format!("{}. The technique counts nothing meanwhile.", capital(settings.mode.about())));
         if let Some(plan) = view.plan {
             explain(ui, thrown(plan, desk.settings.light));
-            mirrors::bits(ui, plan.budget);
+            mirrors::bits(ui, plan.bits_in_use());
         }
     } else if desk.settings.failure.is_some() && settings.mode != PlanarMode::Off {
         explain(ui, "Off while a failure of the gallery is shown: those are volumes'.");
