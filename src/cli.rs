@@ -14,6 +14,7 @@ mod counting;
 mod csg;
 mod culling;
 mod decals;
+mod dissolve;
 mod halo;
 mod input;
 mod light_edit;
@@ -475,6 +476,8 @@ struct PictureArguments {
     #[command(flatten)]
     decals: decals::DecalArguments,
     #[command(flatten)]
+    dissolve: dissolve::DissolveArguments,
+    #[command(flatten)]
     playground: playground::BoardArguments,
     #[command(flatten)]
     mirrors: mirrors::MirrorArguments,
@@ -507,6 +510,7 @@ impl PictureArguments {
                 lighting: settings.lighting,
                 counting: settings.counting,
                 decals: settings.decals,
+                dissolve: settings.dissolve,
                 playground: settings.playground,
                 complexity: settings.complexity,
                 culling: settings.culling,
@@ -557,6 +561,7 @@ impl PictureArguments {
         self.culling.apply(&mut settings.culling)?;
         self.complexity.apply(&mut settings.complexity)?;
         self.decals.apply(&mut settings.decals)?;
+        self.dissolve.apply(&mut settings.dissolve)?;
         self.playground.apply(&mut settings.playground)?;
         self.mirrors.apply(&mut settings.mirrors)?;
         self.halos.apply(&mut settings.halos);

@@ -6,6 +6,7 @@
 
 mod casters;
 mod decals;
+mod dissolve;
 mod halos;
 mod off_mirrors;
 mod planar;
@@ -82,7 +83,7 @@ pub fn stage(settings: &Settings, scene: &Scene, capabilities: &Capabilities) ->
 pub fn frames(settings: &Settings) -> u32 {
     // Exact values and false colours have no mean.
     let one_frame = !matches!(settings.show, Show::Final | Show::Volumes | Show::Wireframe);
-    if one_frame { 1 } else { settings.lighting.accumulate.clamp(1, MAX_FRAMES) }
+    if one_frame || dissolve::wanted(settings).is_some() { 1 } else { settings.lighting.accumulate.clamp(1, MAX_FRAMES) }
 }
 
 /// [`stage`] for one of the [`frames`], from 0: each has other points of the lights with a size, and all
@@ -131,6 +132,11 @@ pub fn stage_frame(
     }
     let gather = (frames > 1).then_some(Gather { frame, frames });
     let mut plan = plan(settings, scene, &pose, camera, capabilities, gather);
+    if let Some(into) = dissolve::wanted(settings) {
+        let second = Settings { technique: into, ..settings.clone() };
+        let second = self::plan(&second, scene, &pose, camera, capabilities, gather);
+        plan = dissolve::mixed(plan, second, &settings.dissolve, settings.time);
+    }
     if let Some(failure) = settings.failure {
         failures::spoil(failure, &mut plan);
     }
@@ -316,9 +322,13 @@ impl<'a> Frame<'a> {
         );
         let reads_samples = settings.technique == Technique::Wide || scene.solid.is_some();
         let each_sample = !reads_samples || capabilities.wide_four_samples;
-        let samples = if exact_values || !capabilities.four_samples || !each_sample { 1 } else { settings.samples };
+        let dissolves = dissolve::wanted(settings).is_some();
+        let samples = if exact_values || dissolves || !capabilities.four_samples || !each_sample { 1 } else { settings.samples };
         let mut notes: Vec<_> =
             capabilities.lacks().iter().map(|lack| format!("no {}: {}", lack.feature, lack.instead)).collect();
+        if dissolves && settings.samples != 1 {
+            notes.push("what dissolves does so by whole pixels: 1 sample a pixel".into());
+        }
         if exact_values && settings.samples != 1 {
             notes.push(format!("{} shows exact values: 1 sample a pixel", settings.show.name()));
         }
@@ -420,6 +430,9 @@ impl<'a> Frame<'a> {
 
     /// Whether the settings leave nothing to accumulate but light.
     fn may_draw_directly(&self) -> bool {
+        if self.dissolves() {
+            return false;
+        }
         let plan = &self.plan;
         let in_floats = plan.accumulation == Accumulation::Float;
         let textured = self.texturing() == Texturing::EachLight;

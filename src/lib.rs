@@ -140,6 +140,9 @@
 //!         r r V [ count ]        the same beside volumes: V, shadowed by what is projected
 //! ```
 //!
+//! A picture that dissolves into another is two frames in one plan, one after the other; the first is kept in a texture,
+//! a pattern marks the stencil, and the first is laid again where nothing is marked (`director::dissolve`).
+//!
 //! Decals have one bit for as long as they are drawn, before the lights or after them ([`techniques::decals`]): it is free
 //! again when their ground is unmarked. Depth complexity and the playground have a frame, and all eight bits, to
 //! themselves: a clamped count knows no fields ([`techniques::complexity`]), and who plays may choose any mask

@@ -9,6 +9,7 @@ mod counting;
 mod csg;
 mod culling;
 mod decals;
+mod dissolve;
 mod halo;
 mod lighting;
 mod mirrors;
@@ -20,6 +21,7 @@ pub use counting::{Counting, MAX_COUNT_BITS, Overflow};
 pub use csg::{Csg, Operation};
 pub use culling::{Culling, LightBounds};
 pub use decals::DecalMode;
+pub use dissolve::{Dissolve, Pattern};
 pub use halo::{Halos, MAX_HALO_WIDTH};
 pub use lighting::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
 pub use mirrors::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorLight, MirrorMode, MirrorPlace, Mirrors};
@@ -81,6 +83,8 @@ pub struct Settings {
     pub culling: Culling,
     /// How coplanar geometry is drawn.
     pub decals: DecalMode,
+    /// Whether the picture dissolves into another.
+    pub dissolve: Dissolve,
     /// Shapes drawn into the stencil, and their states.
     pub playground: Playground,
     /// Which fragments depth complexity counts.
@@ -122,6 +126,7 @@ impl Default for Settings {
             lighting: Lighting::default(),
             culling: Culling::default(),
             decals: DecalMode::default(),
+            dissolve: Dissolve::default(),
             playground: Playground::default(),
             complexity: Complexity::default(),
             mirrors: Mirrors::default(),

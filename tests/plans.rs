@@ -107,6 +107,13 @@ fn three_bounces_of_the_barbershop_plan_as_written() {
 }
 
 #[test]
+fn a_dissolve_plans_as_written() {
+    let mut settings = Settings { technique: Technique::ZFail, size: [320, 180], ..Settings::default() };
+    settings.dissolve.into = Some(Technique::None);
+    assert_text("dissolve", &plan(&varied(), &settings));
+}
+
+#[test]
 fn light_off_a_mirror_plans_as_written() {
     let scene = stock::build("figure3").unwrap().unwrap();
     let mut settings = Settings { technique: Technique::Auto, size: [320, 180], ..Settings::default() };

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use super::{
     complexity as complexity_options, counting as counting_options, csg as csg_options, culling as culling_options,
-    decals as decal_options, halo as halo_options, light_edit, lighting as lighting_options, mirrors as mirror_options,
-    needs_dot, planar as planar_options, playground as playground_options,
+    decals as decal_options, dissolve as dissolve_options, halo as halo_options, light_edit, lighting as lighting_options,
+    mirrors as mirror_options, needs_dot, planar as planar_options, playground as playground_options,
 };
 use crate::scene::AnimationChoice;
 use crate::settings::{CameraChoice, SceneChoice, Settings};
@@ -45,6 +45,7 @@ pub fn render_command(settings: &Settings) -> String {
         mirrors,
         playground,
         decals,
+        dissolve,
         halos,
         csg,
         planar,
@@ -119,6 +120,7 @@ pub fn render_command(settings: &Settings) -> String {
     culling_options::write(culling, &mut line);
     complexity_options::write(*complexity, &mut line);
     decal_options::write(*decals, &mut line);
+    dissolve_options::write(dissolve, &mut line);
     playground_options::write(playground, &mut line);
     mirror_options::write(mirrors, &mut line);
     halo_options::write(halos, &mut line);

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::{counting, csg, halo, lighting, mirrors, planar, playground};
+use super::{counting, csg, dissolve, halo, lighting, mirrors, planar, playground};
 use crate::scene::{AnimationChoice, LightKind, Scene};
 use crate::settings::{CameraChoice, LightEdit, MAX_SIZE, Settings, SlideChoice};
 
@@ -188,6 +188,7 @@ pub fn check(settings: &Settings) -> Result<(), InputError> {
     lighting::check(&settings.lighting)?;
     playground::check(&settings.playground.board)?;
     halo::check(&settings.halos)?;
+    dissolve::check(&settings.dissolve)?;
     mirrors::check(&settings.mirrors)
 }
 
@@ -217,14 +218,14 @@ fn place(what: &str, point: DVec3) -> Result<(), InputError> {
     point.to_array().into_iter().try_for_each(|part| bounded(what, part, Some(MAX_COORDINATE)))
 }
 
-fn bounded(what: &str, value: f64, bound: Option<f64>) -> Result<(), InputError> {
+pub(super) fn bounded(what: &str, value: f64, bound: Option<f64>) -> Result<(), InputError> {
     if value.is_finite() && bound.is_none_or(|bound| value.abs() <= bound) {
         return Ok(());
     }
     Err(InputError::Number { what: what.into(), value, bound })
 }
 
-fn at_least_zero(what: &str, value: f64) -> Result<(), InputError> {
+pub(super) fn at_least_zero(what: &str, value: f64) -> Result<(), InputError> {
     bounded(what, value, None)?;
     if value < 0.0 {
         return Err(InputError::Negative { what: what.into(), value, zero: false });

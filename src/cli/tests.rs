@@ -10,9 +10,10 @@ use proptest::prelude::*;
 use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
 use crate::settings::{
-    Accumulation, AreaMode, Board, Complexity, Counting, Csg, Culling, DecalMode, Halos, HybridPart, LEAST_TEXTURE, LastBounce,
-    LightBounds, Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES, MAX_COUNT_BITS, MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE, MirrorLight,
-    MirrorMode, MirrorPlace, Mirrors, Operation, Overflow, Planar, PlanarMode, Playground, SlideChoice, Texturing, boards,
+    Accumulation, AreaMode, Board, Complexity, Counting, Csg, Culling, DecalMode, Dissolve, Halos, HybridPart, LEAST_TEXTURE,
+    LastBounce, LightBounds, Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES, MAX_COUNT_BITS, MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE,
+    MirrorLight, MirrorMode, MirrorPlace, Mirrors, Operation, Overflow, Pattern, Planar, PlanarMode, Playground, SlideChoice,
+    Texturing, boards,
 };
 
 fn command(line: &str) -> Result<Command, InputError> {
@@ -52,7 +53,7 @@ fn every_argument_reaches_its_setting() {
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --area-mode bits --light-sample 3 --accumulate 256 \
          --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on \
          --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --mirror-texture 77 --mirror-light virtual --least-pixels 25 --mirror 12=on --mirror 3:1=off \
-         --halo 4 --halo 5=off --halo-color 0.5,0,1 --halo-width 2.5 --csg a-minus-b --csg-a 6 --csg-b 9 \
+         --dissolve parity --dissolve-pattern wipe --dissolve-amount 0.25 --dissolve-seconds 3 --halo 4 --halo 5=off --halo-color 0.5,0,1 --halo-width 2.5 --csg a-minus-b --csg-a 6 --csg-b 9 \
          --planar hybrid --hybrid planar --receiver 4=on --receiver 5:2=off \
          --light-edit 1:on=true --adapter llvm --shaders wgsl",
     );
@@ -73,6 +74,7 @@ fn every_argument_reaches_its_setting() {
         counting: Counting { bits: 3, overflow: Overflow::Naive },
         complexity: Complexity::Fragments,
         decals: DecalMode::Offset,
+        dissolve: Dissolve { into: Some(Technique::Parity), pattern: Pattern::Wipe, amount: 0.25, seconds: 3.0 },
         playground: Playground { board: (boards::find("masks").unwrap().build)(), numbers: true },
         show: Show::Stencil,
         failure: Some(Failure::Saturating),
@@ -435,11 +437,18 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         a,
         b,
     });
+    let dissolve = (
+        prop::option::of(prop::sample::select(&Technique::ALL[..])),
+        prop::sample::select(&Pattern::ALL[..]),
+        0.0..=1.0f32,
+        0.0..100.0f32,
+    )
+        .prop_map(|(into, pattern, amount, seconds)| Dissolve { into, pattern, amount, seconds });
     let rest = (
         prop::collection::btree_map(any::<usize>(), any_edit(), 0..4),
         lighting,
         (1..=MAX_COUNT_BITS, prop::sample::select(&Overflow::ALL[..])).prop_map(|(bits, overflow)| Counting { bits, overflow }),
-        (culling, mirrors, halos, csg, planar),
+        (culling, mirrors, halos, csg, planar, dissolve),
         prop::option::of(word()),
         prop::option::of(word().prop_filter("a folder", |path| !path.is_empty()).prop_map(PathBuf::from)),
         (
@@ -460,7 +469,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
                 lights,
                 lighting,
                 counting,
-                (culling, mirrors, halos, csg, planar),
+                (culling, mirrors, halos, csg, planar, dissolve),
                 adapter,
                 shaders,
                 (failure, complexity, decals, playground),
@@ -472,6 +481,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             counting,
             complexity,
             decals,
+            dissolve,
             playground,
             show,
             failure,

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::{Figure, Paper};
 use crate::settings::{
-    CameraChoice, Complexity, DecalMode, HybridPart, LightBounds, LightEdit, MirrorMode, Operation, PlanarMode, Settings, Show,
-    Technique,
+    CameraChoice, Complexity, DecalMode, Dissolve, HybridPart, LightBounds, LightEdit, MirrorMode, Operation, Pattern,
+    PlanarMode, Settings, Show, Technique,
 };
 
 /// From here to there.
@@ -260,6 +260,18 @@ pub static TABLE: &[Figure] = &[
             off(settings, 0);
             let (position, intensity) = (Some(DVec3::new(-1.6, 1.5, 1.6)), Some(34.0));
             settings.lights.insert(1, LightEdit { position, intensity, radius: Some(0.22), ..LightEdit::default() });
+        },
+    },
+    Figure {
+        name: "k16",
+        paper: Paper::Kilgard,
+        number: "Figure 16",
+        title: "A dissolve by a stencil pattern",
+        seen: "Half the pixels, marked in the stencil by a pattern, show the picture without shadows, the others the one with them.",
+        instead: "one scene with and without shadows for his two scenes",
+        scene: "courtyard",
+        view: |settings| {
+            settings.dissolve = Dissolve { into: Some(Technique::None), pattern: Pattern::BlueNoise, amount: 0.5, seconds: 0.0 };
         },
     },
     Figure {

@@ -14,12 +14,13 @@
 //!         h g f e d c b a        a bit for each of eight points of a light with a size
 //!         d c b a [ count ]      for each of four, that count in the low bits one after the other
 //!                   T g g        after all light: T, an object with a halo; g, how often the pixel glows
-//! ```
-//!
+//!                       p        after all light: p, has turned to the picture that it dissolves into
 //!         r r r r r r r s        which receiver of planar shadows; shadowed, or lit the round before
 //!         r r V [ count ]        the same beside volumes: V, shadowed by what is projected
+//! ```
 //!
-//! All of them (receivers' apart: `frame::stencil::receivers`) are zero where the light shines, so that one comparison with zero asks for all.
+//! All of them (receivers' apart: `frame::stencil::receivers`) are zero where the light shines, so that one comparison
+//! with zero asks for all.
 //!
 //! A light whose volumes could lie over one pixel more often than the field can tell apart is counted
 //! in batches ([`BitBudget::batched`]): after each, one full-screen step ([`StencilState::collapse`])
@@ -303,6 +304,19 @@ impl StencilState {
     #[must_use]
     pub const fn set_bit(budget: BitBudget, bit: u32) -> Self {
         Self::replace(budget.count_mask & (1 << bit))
+    }
+
+    /// Sets some bits to the reference's, whatever is there: a pattern's.
+    #[must_use]
+    pub const fn mark(mask: u8) -> Self {
+        Self::replace(mask)
+    }
+
+    /// Passes where none of some bits is set, and changes nothing.
+    #[must_use]
+    pub const fn unmarked(mask: u8) -> Self {
+        let face = StencilFace::test(Compare::Equal);
+        Self { front: face, back: face, read_mask: mask, write_mask: 0 }
     }
 
     const fn replace(mask: u8) -> Self {

@@ -280,6 +280,10 @@ pub enum Program {
     SolidMergeEach,
     /// Light caps thrown onto a receiver, in the constant.
     Projected,
+    /// Full screen, no colour: where a pattern has turned, the constant's red being which and its green how far.
+    Pattern,
+    /// Full screen: the picture that was kept of the eye's view, as it is.
+    LayKept,
 }
 
 /// What a step draws, by number.

@@ -297,6 +297,10 @@ impl Encode<'_> {
         }
         match &draw.set {
             DrawSet::FullScreen => {
+                let kept = plan.views[place.view].texture.filter(|_| draw.program == Program::LayKept);
+                if let Some(kept) = kept.and_then(|texture| self.targets.reflections.get(texture)) {
+                    pass.set_bind_group(1, &kept.read, &[]);
+                }
                 if let (Reads::Solid | Reads::SolidEach, Some(solid)) = (reads(draw.program, draw.target), &self.targets.solid) {
                     pass.set_bind_group(1, &solid.read, &[]);
                 }

@@ -28,6 +28,7 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("wireframe.wgsl", include_str!("../../shaders/wireframe.wgsl")),
     ("texture.wgsl", include_str!("../../shaders/texture.wgsl")),
     ("labels.wgsl", include_str!("../../shaders/labels.wgsl")),
+    ("dissolve.wgsl", include_str!("../../shaders/dissolve.wgsl")),
     ("stencil_only.wgsl", include_str!("../../shaders/stencil_only.wgsl")),
     ("wide.wgsl", include_str!("../../shaders/wide.wgsl")),
     ("lines.wgsl", include_str!("../../shaders/lines.wgsl")),
@@ -180,6 +181,8 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::SolidMerge, "solid.wgsl", "full_screen_vertex", "solid_merge", Vertices::None, &[]),
     entry(Program::SolidMergeEach, "solid.wgsl", "full_screen_vertex", "solid_merge_each", Vertices::None, &[]),
     entry(Program::Projected, "volume.wgsl", "thrown_vertex", "projected", Vertices::Volume, &[]),
+    entry(Program::Pattern, "dissolve.wgsl", "full_screen_vertex", "pattern", Vertices::None, &[]),
+    entry(Program::LayKept, "dissolve.wgsl", "full_screen_vertex", "lay_kept", Vertices::None, &[]),
 ];
 
 /// The entry of a program.

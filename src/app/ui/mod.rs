@@ -12,6 +12,7 @@ mod counting;
 mod csg;
 mod culling;
 mod decals;
+mod dissolve;
 mod failures;
 mod figures;
 mod gather;
@@ -275,6 +276,7 @@ impl Panel {
         style::section(ui, "Technique", true, |ui| technique::techniques(ui, desk));
         style::section(ui, "Show", true, |ui| technique::show(ui, desk, view));
         style::section(ui, "Decals", false, |ui| decals::decals(ui, desk, view));
+        style::section(ui, "Dissolve", false, |ui| dissolve::dissolve(ui, desk));
         style::section(ui, "Stencil playground", false, |ui| playground::playground(ui, self, desk));
         style::section(ui, "Figures", false, |ui| figures::figures(ui, self, actions));
         style::section(ui, "Failures", false, |ui| failures::failures(ui, self, desk, actions));

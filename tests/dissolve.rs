@@ -1,0 +1,83 @@
+//! Pictures that dissolve into others: by the stencil, pixel by pixel.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::Stage;
+use obscura::director;
+use obscura::frame::Capabilities;
+use obscura::scene::{Scene, stock};
+use obscura::settings::{Dissolve, MirrorMode, Mirrors, Pattern, Settings, Technique};
+
+/// Many patterns fit into it, whole.
+const SIZE: [u32; 2] = [128, 64];
+
+fn settings(pattern: Pattern, amount: f32) -> Settings {
+    let dissolve = Dissolve { into: Some(Technique::None), pattern, amount, seconds: 0.0 };
+    Settings { technique: Technique::ZFail, dissolve, size: SIZE, samples: 4, ..Settings::default() }
+}
+
+fn room() -> Scene {
+    stock::build("gallery").unwrap().unwrap()
+}
+
+/// The share of pixels that have turned is the amount, as far as the pattern has steps for it; and each shows the picture
+/// that it should, as it is by itself.
+#[test]
+fn so_many_pixels_turn_and_each_shows_its_picture() {
+    let scene = room();
+    let mut stage = Stage::new();
+    stage.set_scene(&scene);
+    let [first, second] = [0.0, 1.0].map(|amount| stage.shoot(&settings(Pattern::Bayer, amount), &scene).image);
+    let differ = first.pixels().zip(second.pixels()).filter(|(first, second)| first != second).count();
+    assert!(differ > 500, "the pictures differ in {differ} pixels");
+    let all = (SIZE[0] * SIZE[1]) as usize;
+    let steps = |pattern| match pattern {
+        Pattern::Bayer => [0.0, 1.0 / 64.0, 0.25, 0.5, 37.0 / 64.0, 1.0],
+        Pattern::BlueNoise => [0.0, 1.0 / 256.0, 0.25, 0.5, 133.0 / 256.0, 1.0],
+        Pattern::Checker => [0.0, 0.0, 0.5, 0.5, 0.5, 1.0],
+        Pattern::Wipe => [0.0, 1.0 / 128.0, 0.25, 0.5, 97.0 / 128.0, 1.0],
+    };
+    for pattern in Pattern::ALL {
+        for amount in steps(pattern) {
+            let shot = stage.shoot(&settings(pattern, amount), &scene);
+            let stencil = stage.stencil();
+            let turned = stencil.iter().filter(|value| **value & 1 == 1).count();
+            assert_eq!(turned as f32 / all as f32, amount, "{pattern:?}");
+            for (at, value) in stencil.iter().enumerate() {
+                let (x, y) = (at as u32 % SIZE[0], at as u32 / SIZE[0]);
+                let expected = if value & 1 == 1 { &second } else { &first };
+                assert_eq!(shot.image.get_pixel(x, y), expected.get_pixel(x, y), "{pattern:?} {amount} at {x},{y}");
+            }
+        }
+    }
+}
+
+/// No pattern turns a pixel back as it goes on.
+#[test]
+fn what_has_turned_stays_turned() {
+    let scene = room();
+    let mut stage = Stage::new();
+    stage.set_scene(&scene);
+    for pattern in Pattern::ALL {
+        let mut before = vec![0; (SIZE[0] * SIZE[1]) as usize];
+        for amount in [0.1, 0.3, 0.6, 0.9] {
+            stage.shoot(&settings(pattern, amount), &scene);
+            let now: Vec<u8> = stage.stencil().iter().map(|value| value & 1).collect();
+            assert!(before.iter().zip(&now).all(|(before, now)| before <= now), "{pattern:?} at {amount}");
+            before = now;
+        }
+    }
+}
+
+#[test]
+fn pictures_that_cannot_share_their_targets_stay_whole() {
+    let scene = room();
+    let plan = |settings: &Settings| director::stage(settings, &scene, &Capabilities::complete()).unwrap().1;
+    let texture = Mirrors { mode: MirrorMode::Texture, ..Mirrors::default() };
+    let whole = plan(&Settings { mirrors: texture, ..settings(Pattern::Bayer, 0.5) });
+    assert!(whole.notes.iter().any(|note| note.contains("nothing dissolves")), "{:?}", whole.notes);
+    let mixed = plan(&settings(Pattern::Bayer, 0.5));
+    assert!(mixed.notes.iter().any(|note| note.contains("1 sample a pixel")), "{:?}", mixed.notes);
+    assert_eq!(mixed.samples, 1);
+}
