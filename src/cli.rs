@@ -20,11 +20,14 @@ mod input;
 mod light_edit;
 mod lighting;
 mod mirrors;
+mod picture;
 mod planar;
 mod playground;
+mod verify;
 
 pub use command_line::render_command;
 pub use input::{InputError, MAX_COORDINATE, MAX_EXPOSURE, check, check_against};
+pub use verify::{RANDOM_SIZE, VerifyRequest};
 
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
@@ -34,10 +37,9 @@ use clap::error::ErrorKind;
 use clap::{Args, CommandFactory as _, Parser, Subcommand};
 use glam::DVec3;
 
-use crate::failures;
 use crate::figures::{self, Figure};
 use crate::scene::{AnimationChoice, stock};
-use crate::settings::{Api, CameraChoice, Failure, LightEdit, MAX_SIZE, SceneChoice, Settings, Show, Technique};
+use crate::settings::{Api, MAX_SIZE, SceneChoice, Settings};
 
 /// What the arguments ask for.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,24 +101,6 @@ pub enum Command {
         out: PathBuf,
     },
 }
-
-/// What is to be verified.
-#[derive(Debug, Clone, PartialEq)]
-pub struct VerifyRequest {
-    /// The view; of random ones what all have in common.
-    pub settings: Settings,
-    /// Drawn by each of these.
-    pub techniques: Vec<Technique>,
-    /// Only this light; else all of them, or one at random in each random view.
-    pub light: Option<usize>,
-    /// How many random views, and the seed they are made from.
-    pub random: Option<(usize, u64)>,
-    /// A picture of the wrong pixels.
-    pub diff: Option<PathBuf>,
-}
-
-/// The size of random views, pixels: small, for there are many of them.
-pub const RANDOM_SIZE: [u32; 2] = [320, 180];
 
 /// What the arguments say about the window, apart from what its last run left.
 #[derive(Debug, Clone, PartialEq)]
@@ -280,7 +264,7 @@ enum Subcommands {
     /// precision what each pixel must be. Where rays through the pixel disagree it is an edge; all others
     /// are decided. Ends with exit code 1 if a technique that claims to be exact has one wrong decided
     /// pixel; techniques known to fail only have theirs counted.
-    Verify(Box<VerifyArguments>),
+    Verify(Box<verify::VerifyArguments>),
     /// Draws shapes into the stencil, one after another, every state free to choose
     ///
     /// The stencil that comes of it is shown as colours and, with --numbers, as numbers. --calls prints what
@@ -333,7 +317,7 @@ struct WindowArguments {
     #[arg(value_name = "SCENE")]
     scene: Option<OsString>,
     #[command(flatten)]
-    picture: PictureArguments,
+    picture: picture::PictureArguments,
     /// Whether frames wait for the screen
     #[arg(long, value_enum, value_name = "on|off", hide_possible_values = true)]
     vsync: Option<Switch>,
@@ -358,220 +342,10 @@ struct RenderArguments {
     #[arg(long, value_name = "FILE.png")]
     out: PathBuf,
     #[command(flatten)]
-    picture: PictureArguments,
+    picture: picture::PictureArguments,
     /// Prints what was drawn, and how long it took, as JSON
     #[arg(long)]
     json: bool,
-}
-
-#[derive(Debug, Args)]
-struct VerifyArguments {
-    /// A stock scene's name, or a .gltf or .glb file (`./name` where a file has a stock name)
-    #[arg(value_name = "SCENE")]
-    scene: OsString,
-    #[command(flatten)]
-    picture: PictureArguments,
-    /// Looks from N random places with the light at random places: anywhere, in casters, in their
-    /// shadows, with casters across the near plane, at mirrors; 320x180 pixels each unless --size says otherwise
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    random: Option<u32>,
-    /// What the random views are made from: the same seed gives the same views everywhere
-    #[arg(long, value_name = "S", default_value_t = 1, requires = "random")]
-    seed: u64,
-    /// Writes a picture of the wrong pixels: red drawn lit, blue drawn dark, magenta another surface, edges faintly
-    #[arg(long, value_name = "FILE.png")]
-    diff: Option<PathBuf>,
-    /// Prints what was found as JSON
-    #[arg(long)]
-    json: bool,
-}
-
-impl VerifyArguments {
-    fn request(self) -> Result<VerifyRequest, InputError> {
-        let mut picture = self.picture;
-        // Without shadows there is nothing to verify, unless it is asked for.
-        let counting = || Technique::ALL.into_iter().filter(|technique| *technique != Technique::None).collect();
-        let techniques = match picture.technique.take_if(|name| name == "all") {
-            None if picture.technique.is_some() => None,
-            _ => Some(counting()),
-        };
-        if self.random.is_some() {
-            picture.size.get_or_insert(RANDOM_SIZE);
-        }
-        let light = picture.light;
-        let settings = picture.settings(Some(&self.scene), Settings::default())?;
-        Ok(VerifyRequest {
-            techniques: techniques.unwrap_or_else(|| vec![settings.technique]),
-            settings,
-            light,
-            random: self.random.map(|count| (count as usize, self.seed)),
-            diff: self.diff,
-        })
-    }
-}
-
-/// What both the window and `render` understand. Words and numbers are kept as they were read;
-/// whether they name something is [`PictureArguments::settings`]'s business.
-#[derive(Debug, Clone, PartialEq, Args)]
-struct PictureArguments {
-    #[arg(long, value_name = "T", help = format!("How shadows are counted: {}", names(Technique::ALL.map(Technique::name))))]
-    technique: Option<String>,
-    #[arg(long, value_name = "S", help = format!("What is shown: {}", names(Show::ALL.map(Show::name))))]
-    show: Option<String>,
-    /// A classic mistake, made on purpose (`obscura list` names them); without SCENE it is shown on a scene of
-    /// its own
-    #[arg(long, value_name = "NAME")]
-    failure: Option<String>,
-    /// The light that stencil, shadow and volumes look at, from 0
-    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = index)]
-    light: Option<usize>,
-    /// Pixels [default: 1280x720]
-    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = size)]
-    size: Option<[u32; 2]>,
-    /// Samples a pixel, 1 or 4 [default: 1]
-    #[arg(long, value_name = "N")]
-    samples: Option<u32>,
-    /// One of the scene's cameras [default: its first]
-    #[arg(long, value_name = "NAME|INDEX", allow_hyphen_values = true, conflicts_with_all = ["eye", "target"])]
-    camera: Option<String>,
-    /// Where the camera stands, metres
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = point)]
-    eye: Option<DVec3>,
-    /// What the camera looks at, metres
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = point)]
-    target: Option<DVec3>,
-    /// The full vertical angle of view, degrees [default: the camera's]
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
-    fov: Option<f64>,
-    /// A far plane, metres, which cuts shadow volumes off and spoils counting [default: none]
-    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
-    far: Option<f64>,
-    /// Seconds into the animation [default: 0]
-    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
-    time: Option<f64>,
-    /// Which animations play [default: the scene's choice]
-    #[arg(long, value_name = "all|still|N", allow_hyphen_values = true, value_parser = animation)]
-    animation: Option<AnimationChoice>,
-    /// Adds a floor beneath a file's scene
-    #[arg(long)]
-    floor: bool,
-    /// Brightens or darkens the picture [default: 0]
-    #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
-    exposure: Option<f32>,
-    /// Shades meshes without the bound that keeps facets off the terminator
-    #[arg(long)]
-    no_smooth_terminator: bool,
-    /// Changes light K, such as "0:on=false" or
-    /// "1:position=0;3;0,color=1;0.5;0.2,intensity=40,range=12,shadows=true,radius=0.3,slide=window"; can be repeated
-    #[arg(long, value_name = "K:WHAT=VALUE,...", value_parser = light_edit::parse)]
-    light_edit: Vec<(usize, LightEdit)>,
-    #[command(flatten)]
-    lighting: lighting::LightingArguments,
-    #[command(flatten)]
-    counting: counting::CountingArguments,
-    #[command(flatten)]
-    culling: culling::CullingArguments,
-    #[command(flatten)]
-    complexity: complexity::ComplexityArguments,
-    #[command(flatten)]
-    decals: decals::DecalArguments,
-    #[command(flatten)]
-    dissolve: dissolve::DissolveArguments,
-    #[command(flatten)]
-    playground: playground::BoardArguments,
-    #[command(flatten)]
-    mirrors: mirrors::MirrorArguments,
-    #[command(flatten)]
-    halos: halo::HaloArguments,
-    #[command(flatten)]
-    csg: csg::CsgArguments,
-    #[command(flatten)]
-    planar: planar::PlanarArguments,
-    /// The graphics adapter: part of its name
-    #[arg(long, value_name = "SUBSTRING", allow_hyphen_values = true)]
-    adapter: Option<String>,
-    /// Reads the shaders from a folder, and again when they change
-    #[arg(long, value_name = "DIR")]
-    shaders: Option<PathBuf>,
-}
-
-impl PictureArguments {
-    /// `base`, changed as the arguments say.
-    fn settings(&self, scene: Option<&OsStr>, base: Settings) -> Result<Settings, InputError> {
-        let mut settings = base;
-        if let Some(word) = scene {
-            settings = Settings {
-                scene: scene_choice(word)?,
-                technique: settings.technique,
-                show: settings.show,
-                size: settings.size,
-                samples: settings.samples,
-                smooth_terminator: settings.smooth_terminator,
-                lighting: settings.lighting,
-                counting: settings.counting,
-                decals: settings.decals,
-                dissolve: settings.dissolve,
-                playground: settings.playground,
-                complexity: settings.complexity,
-                culling: settings.culling,
-                mirrors: settings.mirrors.of_another_scene(),
-                halos: settings.halos.of_another_scene(),
-                csg: settings.csg.of_another_scene(),
-                planar: settings.planar.of_another_scene(),
-                adapter: settings.adapter,
-                shaders: settings.shaders,
-                ..Settings::default()
-            };
-        }
-        if let Some(name) = &self.failure {
-            let failure = by_name("failure", name, Failure::ALL, Failure::name)?;
-            settings = if scene.is_none() {
-                failures::demonstration(failure, &settings)
-            } else {
-                Settings { failure: Some(failure), ..settings }
-            };
-        }
-        if let Some(name) = &self.technique {
-            settings.technique = by_name("technique", name, Technique::ALL, Technique::name)?;
-        }
-        if let Some(name) = &self.show {
-            settings.show = by_name("show", name, Show::ALL, Show::name)?;
-        }
-        if let (Some(eye), Some(target)) = (self.eye, self.target) {
-            settings.camera = CameraChoice::Free { eye, target };
-        }
-        if let Some(name) = &self.camera {
-            settings.camera = CameraChoice::Named(name.clone());
-        }
-        settings.light = self.light.unwrap_or(settings.light);
-        settings.size = self.size.unwrap_or(settings.size);
-        settings.samples = self.samples.unwrap_or(settings.samples);
-        settings.fov = self.fov.or(settings.fov);
-        settings.far = self.far.or(settings.far);
-        settings.time = self.time.unwrap_or(settings.time);
-        settings.animation = self.animation.or(settings.animation);
-        settings.floor |= self.floor;
-        settings.exposure = self.exposure.unwrap_or(settings.exposure);
-        settings.smooth_terminator &= !self.no_smooth_terminator;
-        for (light, edit) in &self.light_edit {
-            light_edit::merge(settings.lights.entry(*light).or_default(), edit);
-        }
-        self.lighting.apply(&mut settings.lighting)?;
-        self.counting.apply(&mut settings.counting)?;
-        self.culling.apply(&mut settings.culling)?;
-        self.complexity.apply(&mut settings.complexity)?;
-        self.decals.apply(&mut settings.decals)?;
-        self.dissolve.apply(&mut settings.dissolve)?;
-        self.playground.apply(&mut settings.playground)?;
-        self.mirrors.apply(&mut settings.mirrors)?;
-        self.halos.apply(&mut settings.halos);
-        self.csg.apply(&mut settings.csg)?;
-        self.planar.apply(&mut settings.planar)?;
-        settings.adapter = self.adapter.clone().or(settings.adapter);
-        settings.shaders = self.shaders.clone().or(settings.shaders);
-        check(&settings)?;
-        Ok(settings)
-    }
 }
 
 fn names<const N: usize>(all: [&str; N]) -> String {

@@ -153,7 +153,7 @@ fn four_samples_and_mirrors_show_the_solid_too() {
     assert!(differ * 20 < one.pixels().len(), "{differ} pixels are another colour by four samples");
     // The floor as a mirror.
     let floor = scene.nodes.iter().position(|node| node.name == "floor").unwrap();
-    settings.mirrors.edits = [(obscura::settings::MirrorPlace { node: floor, primitive: 0 }, true)].into();
+    settings.mirrors.edits = [(obscura::settings::SurfacePlace { node: floor, primitive: 0 }, true)].into();
     let found = stage.verify(&settings, &scene);
     assert!(found.iter().all(|light| light.wrong() == 0 && light.decided > 1000));
 }

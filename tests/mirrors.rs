@@ -17,7 +17,7 @@ use obscura::scene::gltf::load_bytes;
 use obscura::scene::pick::surface_at;
 use obscura::scene::pose::pose;
 use obscura::scene::{Pose, Reflective, Refusal, Scene, doctor};
-use obscura::settings::{MirrorMode, MirrorPlace, Mirrors};
+use obscura::settings::{MirrorMode, Mirrors, SurfacePlace};
 use proptest::prelude::*;
 use serde_json::json;
 
@@ -336,7 +336,7 @@ fn a_ray_meets_the_first_surface_that_is_seen_from_there() {
     let scene = build.0.clone();
     let pose = still(&scene, 0.0);
     let node = |eye: DVec3, direction: DVec3, nearest: f64| {
-        surface_at(&scene, &pose, eye, direction, nearest).map(|MirrorPlace { node, primitive }| (node, primitive))
+        surface_at(&scene, &pose, eye, direction, nearest).map(|SurfacePlace { node, primitive }| (node, primitive))
     };
     let (floor, sheet, cube) = (Some((0, 0)), Some((1, 0)), Some((2, 0)));
     let above = DVec3::new(0.3, 5.0, 0.2);
@@ -365,7 +365,7 @@ fn a_ray_meets_the_first_surface_that_is_seen_from_there() {
 #[test]
 fn surfaces_become_mirrors_and_mirrors_surfaces() {
     let mut scene = floor_sheet_and_cube().0;
-    let [floor, sheet, cube] = [0, 1, 2].map(|node| MirrorPlace { node, primitive: 0 });
+    let [floor, sheet, cube] = [0, 1, 2].map(|node| SurfacePlace { node, primitive: 0 });
     scene.mirrors = vec![obscura::scene::Mirror::of(&scene, 1, 0, Reflective::default()).unwrap()];
     let mut settings = Mirrors::default();
     let in_force = |settings: &Mirrors| {
@@ -378,7 +378,7 @@ fn surfaces_become_mirrors_and_mirrors_surfaces() {
     assert_eq!(scene.toggle_mirror(&mut settings, sheet), Ok(false));
     assert_eq!(in_force(&settings), (vec![0], 0));
     assert!(matches!(scene.toggle_mirror(&mut settings, cube), Err(Refusal::Uneven(_))));
-    assert_eq!(scene.toggle_mirror(&mut settings, MirrorPlace { node: 9, primitive: 0 }), Err(Refusal::Missing));
+    assert_eq!(scene.toggle_mirror(&mut settings, SurfacePlace { node: 9, primitive: 0 }), Err(Refusal::Missing));
     assert_eq!(in_force(&Mirrors { mode: MirrorMode::Off, ..settings.clone() }), (vec![], 0));
     // What cannot be a mirror is refused also where the settings have it from elsewhere.
     let foreign = Mirrors { edits: [(cube, true)].into(), ..Mirrors::default() };

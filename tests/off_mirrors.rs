@@ -12,7 +12,7 @@ use obscura::director;
 use obscura::frame::{Camera, Capabilities, Piece};
 use obscura::headless::verify::verify;
 use obscura::scene::{Pose, Scene, pose, stock};
-use obscura::settings::{MirrorLight, MirrorPlace, Mirrors, SceneChoice, Settings, Show, Technique};
+use obscura::settings::{MirrorLight, Mirrors, SceneChoice, Settings, Show, SurfacePlace, Technique};
 use obscura::truth::{Verdict, World};
 
 /// A mirror of two metres on the floor about the origin, and a ceiling at 4 m; the lamp at (-3, 3, 0), so that its
@@ -26,7 +26,7 @@ fn hall() -> (Build, Mirrors) {
     let ceiling = build.mesh(mesh("ceiling", &corners, &[[0, 1, 2], [0, 2, 3]], 0));
     build.place(ceiling, DVec3::ZERO, DVec3::ONE);
     build.point_light(DVec3::new(-3.0, 3.0, 0.0));
-    let edits = BTreeMap::from([(MirrorPlace { node, primitive: 0 }, true)]);
+    let edits = BTreeMap::from([(SurfacePlace { node, primitive: 0 }, true)]);
     (build, Mirrors { light: MirrorLight::Virtual, edits, ..Mirrors::default() })
 }
 

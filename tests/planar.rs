@@ -19,7 +19,7 @@ use obscura::headless::verify::verify;
 use obscura::scene::gltf::load_bytes;
 use obscura::scene::{LightKind, Material, Scene, pose, stock};
 use obscura::settings::{
-    CameraChoice, HybridPart, LightEdit, MirrorPlace, Planar, PlanarMode, SceneChoice, Settings, Show, Technique,
+    CameraChoice, HybridPart, LightEdit, Planar, PlanarMode, SceneChoice, Settings, Show, SurfacePlace, Technique,
 };
 use obscura::truth::{Verdict, World};
 use proptest::prelude::*;
@@ -58,7 +58,7 @@ fn drawn_by(mode: PlanarMode, eye: [f64; 3], target: [f64; 3]) -> Settings {
 
 /// Marks the surface of a node, by the settings.
 fn receives(settings: &mut Settings, node: usize) {
-    settings.planar.edits.insert(MirrorPlace { node, primitive: 0 }, true);
+    settings.planar.edits.insert(SurfacePlace { node, primitive: 0 }, true);
 }
 
 /// A floor of half side 6 and a cube at each place; gives the floor's node.

@@ -16,7 +16,8 @@ use obscura::frame::validate::validate;
 use obscura::frame::{Action, Capabilities, Draw, DrawSet, FramePlan, Method, Program};
 use obscura::scene::{AlphaMode, LightKind, Material, Scene, Transform, stock};
 use obscura::settings::{
-    AreaMode, CameraChoice, Csg, DecalMode, LightEdit, MirrorLight, MirrorPlace, Operation, PlanarMode, Settings, Show, Technique,
+    AreaMode, CameraChoice, Csg, DecalMode, LightEdit, MirrorLight, Operation, PlanarMode, Settings, Show, SurfacePlace,
+    Technique,
 };
 
 /// Two lights, one with a range; a solid, a mirrored solid, a sheet, a masked and a blended one.
@@ -128,7 +129,7 @@ fn planar_shadows_plan_as_written() {
     for mode in [PlanarMode::Multi, PlanarMode::StencilRelight, PlanarMode::Hybrid] {
         let mut settings = Settings { size: [320, 180], ..Settings::default() };
         settings.planar.mode = mode;
-        settings.planar.edits.insert(MirrorPlace { node: 0, primitive: 0 }, true);
+        settings.planar.edits.insert(SurfacePlace { node: 0, primitive: 0 }, true);
         assert_text(&format!("planar-{}", mode.name()), &plan(&scene, &settings));
     }
 }

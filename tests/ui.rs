@@ -17,8 +17,8 @@ use obscura::frame::{Camera, Capabilities, FramePlan};
 use obscura::scene::stock::StockScene;
 use obscura::scene::{self, Light, LightKind, Node, Pose, PosedLight, Scene};
 use obscura::settings::{
-    CameraChoice, Complexity, Csg, DecalMode, Failure, Halos, HybridPart, LastBounce, LightEdit, MirrorMode, MirrorPlace,
-    Mirrors, Operation, Planar, PlanarMode, SceneChoice, Settings, Show, Technique,
+    CameraChoice, Complexity, Csg, DecalMode, Failure, Halos, HybridPart, LastBounce, LightEdit, MirrorMode, Mirrors, Operation,
+    Planar, PlanarMode, SceneChoice, Settings, Show, SurfacePlace, Technique,
 };
 use obscura::techniques::TABLE;
 use obscura::techniques::cases::{self, Class};
@@ -257,7 +257,7 @@ fn mirrors_are_chosen_and_told() {
     for mirror in harness.state().scene.mirrors.clone() {
         harness.get_by_role_and_label(Role::CheckBox, &mirror.name).click();
         harness.run_steps(3);
-        let place = MirrorPlace { node: mirror.node, primitive: mirror.primitive };
+        let place = SurfacePlace { node: mirror.node, primitive: mirror.primitive };
         assert_eq!(mirrors(&harness).edits, [(place, false)].into());
         harness.get_by_role_and_label(Role::CheckBox, &mirror.name).click();
         harness.run_steps(3);
@@ -341,7 +341,7 @@ fn planar_shadows_are_chosen_and_told() {
     for receiver in harness.state().scene.receivers.clone() {
         harness.get_by_role_and_label(Role::CheckBox, &receiver.name).click();
         harness.run_steps(3);
-        let place = MirrorPlace { node: receiver.node, primitive: receiver.primitive };
+        let place = SurfacePlace { node: receiver.node, primitive: receiver.primitive };
         assert_eq!(planar(&harness).edits, [(place, false)].into());
         harness.get_by_role_and_label(Role::CheckBox, &receiver.name).click();
         harness.run_steps(3);
@@ -349,7 +349,7 @@ fn planar_shadows_are_chosen_and_told() {
     }
     // A click takes the tile away and brings it back; Z begins and Esc ends that.
     let tile = harness.state().scene.receivers[0].clone();
-    let place = MirrorPlace { node: tile.node, primitive: tile.primitive };
+    let place = SurfacePlace { node: tile.node, primitive: tile.primitive };
     let on_tile = DVec3::new(0.1, 0.0, 1.1);
     click_at(&mut harness, on_tile);
     assert_eq!(planar(&harness), default, "a click alone marks nothing");
@@ -405,7 +405,7 @@ fn a_click_makes_a_mirror_of_what_is_flat_and_takes_it_away() {
         };
         kind.get_or_insert((point, place));
     }
-    let name = |place: MirrorPlace| scene.nodes[place.node].name.clone();
+    let name = |place: SurfacePlace| scene.nodes[place.node].name.clone();
     let [mirror, flat, solid] =
         [mirror, flat, solid].map(|found| found.map(|(point, place)| (point, place, name(place))).unwrap());
     let before = settings(&harness);

@@ -13,7 +13,7 @@ use obscura::frame::{Action, Capabilities, Draw, FramePlan, Target, identity_col
 use obscura::geometry::planar::reflection;
 use obscura::gpu::readback;
 use obscura::scene::{Material, Mirror, Reflective, Scene, stock};
-use obscura::settings::{LastBounce, LightEdit, MirrorMode, MirrorPlace, Settings, Show, Technique, Texturing};
+use obscura::settings::{LastBounce, LightEdit, MirrorMode, Settings, Show, SurfacePlace, Technique, Texturing};
 
 const SIZE: [u32; 2] = [320, 180];
 
@@ -207,7 +207,7 @@ fn perfect_mirrors_look_the_same_drawn_directly_or_added_up() {
     for (shadows, range) in [(true, None), (false, None), (true, Some(2.5)), (true, Some(0.01))] {
         for technique in [Technique::Auto, Technique::ZFail, Technique::None] {
             let mut settings = Settings { technique, ..eye.clone() };
-            settings.mirrors.edits.insert(MirrorPlace { node, primitive: 0 }, true);
+            settings.mirrors.edits.insert(SurfacePlace { node, primitive: 0 }, true);
             settings.lights.insert(light, LightEdit { shadows: Some(shadows), range, ..LightEdit::default() });
             let direct = stage.shoot(&settings, &scene);
             assert_eq!(direct.plan.views.len(), 2);

@@ -249,7 +249,7 @@ fn write(path: &Path, stored: &Stored) -> std::io::Result<()> {
 mod tests {
     #![allow(clippy::unwrap_used)] // a failed unwrap is a failed test
     use super::*;
-    use crate::settings::{CameraChoice, Failure, LightEdit, MirrorPlace, Mirrors, Technique};
+    use crate::settings::{CameraChoice, Failure, LightEdit, Mirrors, SurfacePlace, Technique};
     use glam::DVec3;
 
     fn store(folder: &Path) -> Store {
@@ -348,7 +348,7 @@ mod tests {
         let mut settings = Settings { light: 3, fov: Some(20.0), technique: Technique::ZPass, samples: 4, ..Settings::default() };
         settings.lights.insert(0, LightEdit::default());
         settings.mirrors.bounces = 2;
-        settings.mirrors.edits.insert(MirrorPlace { node: 1, primitive: 0 }, true);
+        settings.mirrors.edits.insert(SurfacePlace { node: 1, primitive: 0 }, true);
         turn_to(&mut settings, SceneChoice::Stock("cubes".into()));
         let expected = Settings {
             scene: SceneChoice::Stock("cubes".into()),

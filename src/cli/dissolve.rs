@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::command_line::Line;
-use super::input::{InputError, at_least_zero, bounded};
+use super::input::{InputError, at_least_zero, within};
 use super::{by_name, names};
 use crate::settings::{Dissolve, Pattern, Technique};
 
@@ -40,8 +40,7 @@ impl DissolveArguments {
 
 /// Says whether `dissolve` can be drawn.
 pub(super) fn check(dissolve: &Dissolve) -> Result<(), InputError> {
-    at_least_zero("the dissolve's amount", dissolve.amount.into())?;
-    bounded("the dissolve's amount", dissolve.amount.into(), Some(1.0))?;
+    within("the dissolve's amount", dissolve.amount, 1.0)?;
     at_least_zero("the dissolve's seconds", dissolve.seconds.into())
 }
 

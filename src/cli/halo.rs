@@ -4,7 +4,7 @@ use clap::Args;
 use glam::Vec3;
 
 use super::command_line::Line;
-use super::input::InputError;
+use super::input::{InputError, within};
 use super::{index, numbers};
 use crate::scene::Scene;
 use crate::settings::{Halos, MAX_HALO_WIDTH};
@@ -67,13 +67,6 @@ pub(super) fn write(halos: &Halos, line: &mut Line) {
 
 /// Says whether `halos` can be drawn on some scene.
 pub(super) fn check(halos: &Halos) -> Result<(), InputError> {
-    let within = |what, value: f32, most: f32| {
-        if (0.0..=most).contains(&value) {
-            Ok(())
-        } else {
-            Err(InputError::Within { what, value: value.into(), most: most.into() })
-        }
-    };
     halos.color.to_array().into_iter().try_for_each(|part| within("each part of the halo's colour", part, 1.0))?;
     within("the halo's width", halos.width, MAX_HALO_WIDTH)
 }

@@ -218,7 +218,12 @@ fn place(what: &str, point: DVec3) -> Result<(), InputError> {
     point.to_array().into_iter().try_for_each(|part| bounded(what, part, Some(MAX_COORDINATE)))
 }
 
-pub(super) fn bounded(what: &str, value: f64, bound: Option<f64>) -> Result<(), InputError> {
+/// From 0 to `most`.
+pub(super) fn within(what: &'static str, value: f32, most: f32) -> Result<(), InputError> {
+    if (0.0..=most).contains(&value) { Ok(()) } else { Err(InputError::Within { what, value: value.into(), most: most.into() }) }
+}
+
+fn bounded(what: &str, value: f64, bound: Option<f64>) -> Result<(), InputError> {
     if value.is_finite() && bound.is_none_or(|bound| value.abs() <= bound) {
         return Ok(());
     }

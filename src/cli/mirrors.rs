@@ -6,7 +6,7 @@ use super::command_line::Line;
 use super::input::InputError;
 use super::{by_name, index, names};
 use crate::scene::{Refusal, Scene};
-use crate::settings::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorLight, MirrorMode, MirrorPlace, Mirrors};
+use crate::settings::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorLight, MirrorMode, Mirrors, SurfacePlace};
 
 /// What both the window and `render` understand of it.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -32,7 +32,7 @@ pub(super) struct MirrorArguments {
     /// Makes a flat surface a mirror, or a mirror none, such as "12=on" or "3:1=off" for the second primitive of node 3;
     /// can be repeated
     #[arg(long, value_name = "NODE[:PRIMITIVE]=SWITCH", value_parser = edit)]
-    mirror: Vec<(MirrorPlace, bool)>,
+    mirror: Vec<(SurfacePlace, bool)>,
 }
 
 impl MirrorArguments {
@@ -63,11 +63,11 @@ fn switch(on: bool) -> &'static str {
 }
 
 /// A surface, switched: `NODE[:PRIMITIVE]=on|off`.
-pub(super) fn edit(text: &str) -> Result<(MirrorPlace, bool), String> {
+pub(super) fn edit(text: &str) -> Result<(SurfacePlace, bool), String> {
     let read = || {
         let (place, state) = text.split_once('=')?;
         let (node, primitive) = place.split_once(':').unwrap_or((place, "0"));
-        let place = MirrorPlace { node: index(node).ok()?, primitive: index(primitive).ok()? };
+        let place = SurfacePlace { node: index(node).ok()?, primitive: index(primitive).ok()? };
         let on = [false, true].into_iter().find(|on| switch(*on) == state)?;
         Some((place, on))
     };
@@ -105,7 +105,7 @@ pub(super) fn write(mirrors: &Mirrors, line: &mut Line) {
 }
 
 /// What [`edit`] reads.
-pub(super) fn edited(MirrorPlace { node, primitive }: &MirrorPlace, on: bool) -> String {
+pub(super) fn edited(SurfacePlace { node, primitive }: &SurfacePlace, on: bool) -> String {
     format!("{node}:{primitive}={}", switch(on))
 }
 
@@ -121,9 +121,9 @@ pub(super) fn check(mirrors: &Mirrors) -> Result<(), InputError> {
 /// Says whether the surfaces that `mirrors` speak of are there. What cannot be a mirror is drawn as it is, and
 /// a note says why.
 pub(super) fn check_against(mirrors: &Mirrors, scene: &Scene) -> Result<(), InputError> {
-    let missing = |place: &&MirrorPlace| scene.can_mirror(**place) == Err(Refusal::Missing);
+    let missing = |place: &&SurfacePlace| scene.can_mirror(**place) == Err(Refusal::Missing);
     match mirrors.edits.keys().find(missing) {
-        Some(&MirrorPlace { node, primitive }) => Err(InputError::Surface { node, primitive }),
+        Some(&SurfacePlace { node, primitive }) => Err(InputError::Surface { node, primitive }),
         None => Ok(()),
     }
 }

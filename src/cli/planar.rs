@@ -6,7 +6,7 @@ use super::command_line::Line;
 use super::input::InputError;
 use super::{by_name, mirrors, names};
 use crate::scene::{Refusal, Scene};
-use crate::settings::{HybridPart, MirrorPlace, Planar, PlanarMode};
+use crate::settings::{HybridPart, Planar, PlanarMode, SurfacePlace};
 
 /// What both the window and `render` understand of it.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -18,7 +18,7 @@ pub(super) struct PlanarArguments {
     /// Makes a flat surface a receiver of planar shadows, or a receiver none, such as "12=on" or "3:1=off" for the second
     /// primitive of node 3; can be repeated
     #[arg(long, value_name = "NODE[:PRIMITIVE]=SWITCH", value_parser = mirrors::edit)]
-    receiver: Vec<(MirrorPlace, bool)>,
+    receiver: Vec<(SurfacePlace, bool)>,
 }
 
 impl PlanarArguments {
@@ -53,9 +53,9 @@ pub(super) fn write(planar: &Planar, line: &mut Line) {
 /// Says whether the surfaces that `planar` speaks of are there. What cannot be a receiver takes none of these shadows,
 /// and a note says why.
 pub(super) fn check_against(planar: &Planar, scene: &Scene) -> Result<(), InputError> {
-    let missing = |place: &&MirrorPlace| scene.can_receive(**place) == Err(Refusal::Missing);
+    let missing = |place: &&SurfacePlace| scene.can_receive(**place) == Err(Refusal::Missing);
     match planar.edits.keys().find(missing) {
-        Some(&MirrorPlace { node, primitive }) => Err(InputError::Surface { node, primitive }),
+        Some(&SurfacePlace { node, primitive }) => Err(InputError::Surface { node, primitive }),
         None => Ok(()),
     }
 }

@@ -10,10 +10,10 @@ use proptest::prelude::*;
 use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
 use crate::settings::{
-    Accumulation, AreaMode, Board, Complexity, Counting, Csg, Culling, DecalMode, Dissolve, Halos, HybridPart, LEAST_TEXTURE,
-    LastBounce, LightBounds, Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES, MAX_COUNT_BITS, MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE,
-    MirrorLight, MirrorMode, MirrorPlace, Mirrors, Operation, Overflow, Pattern, Planar, PlanarMode, Playground, SlideChoice,
-    Texturing, boards,
+    Accumulation, AreaMode, Board, CameraChoice, Complexity, Counting, Csg, Culling, DecalMode, Dissolve, Failure, Halos,
+    HybridPart, LEAST_TEXTURE, LastBounce, LightBounds, LightEdit, Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES, MAX_COUNT_BITS,
+    MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE, MirrorLight, MirrorMode, Mirrors, Operation, Overflow, Pattern, Planar, PlanarMode,
+    Playground, Show, SlideChoice, SurfacePlace, Technique, Texturing, boards,
 };
 
 fn command(line: &str) -> Result<Command, InputError> {
@@ -109,8 +109,8 @@ fn every_argument_reaches_its_setting() {
             least_pixels: 25,
             light: MirrorLight::Virtual,
             edits: BTreeMap::from([
-                (MirrorPlace { node: 12, primitive: 0 }, true),
-                (MirrorPlace { node: 3, primitive: 1 }, false),
+                (SurfacePlace { node: 12, primitive: 0 }, true),
+                (SurfacePlace { node: 3, primitive: 1 }, false),
             ]),
         },
         halos: Halos { edits: BTreeMap::from([(4, true), (5, false)]), color: Vec3::new(0.5, 0.0, 1.0), width: 2.5 },
@@ -119,8 +119,8 @@ fn every_argument_reaches_its_setting() {
             mode: PlanarMode::Hybrid,
             hybrid: HybridPart::Planar,
             edits: BTreeMap::from([
-                (MirrorPlace { node: 4, primitive: 0 }, true),
-                (MirrorPlace { node: 5, primitive: 2 }, false),
+                (SurfacePlace { node: 4, primitive: 0 }, true),
+                (SurfacePlace { node: 5, primitive: 2 }, false),
             ]),
         },
         shaders: Some("wgsl".into()),
@@ -181,7 +181,7 @@ fn the_windows_saved_settings_stay_unless_a_scene_is_named() {
         lights: BTreeMap::from([(0, LightEdit { on: Some(false), ..LightEdit::default() })]),
         mirrors: Mirrors {
             bounces: 2,
-            edits: BTreeMap::from([(MirrorPlace { node: 1, primitive: 0 }, true)]),
+            edits: BTreeMap::from([(SurfacePlace { node: 1, primitive: 0 }, true)]),
             ..Mirrors::default()
         },
         ..Settings::default()
@@ -403,7 +403,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
     let culling = (any::<bool>(), prop::sample::select(&LightBounds::ALL[..]), any::<bool>(), any::<bool>()).prop_map(
         |(on, light_bounds, caster_scissors, depth_bounds)| Culling { on, light_bounds, caster_scissors, depth_bounds },
     );
-    let place = (any::<usize>(), any::<usize>()).prop_map(|(node, primitive)| MirrorPlace { node, primitive });
+    let place = (any::<usize>(), any::<usize>()).prop_map(|(node, primitive)| SurfacePlace { node, primitive });
     let edits = || prop::collection::btree_map(place.clone(), any::<bool>(), 0..4);
     let planar = (prop::sample::select(&PlanarMode::ALL[..]), prop::sample::select(&HybridPart::ALL[..]), edits())
         .prop_map(|(mode, hybrid, edits)| Planar { mode, hybrid, edits });

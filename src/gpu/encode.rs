@@ -349,11 +349,7 @@ impl Encode<'_> {
             let (_, node, mesh) = instances[surface.instance];
             let primitive = mesh.primitives[surface.primitive];
             if bound_instance != Some(surface.instance) {
-                let mesh_index = node.mesh.unwrap_or(0);
-                let vertices = self.buffers.vertices(surface.instance, mesh_index);
-                pass.set_vertex_buffer(0, vertices.positions.slice(..));
-                pass.set_vertex_buffer(1, vertices.attributes.slice(..));
-                pass.set_index_buffer(self.buffers.meshes[mesh_index].indices.slice(..), wgpu::IndexFormat::Uint32);
+                self.bind_mesh(pass, surface.instance, node.mesh.unwrap_or(0));
                 bound_instance = Some(surface.instance);
             }
             if bound_material != Some(primitive.material) {
@@ -368,15 +364,20 @@ impl Encode<'_> {
         }
     }
 
+    /// The vertices of an instance and the indices of its mesh, as surfaces are drawn with.
+    fn bind_mesh(&self, pass: &mut wgpu::RenderPass<'_>, instance: usize, mesh: usize) {
+        let vertices = self.buffers.vertices(instance, mesh);
+        pass.set_vertex_buffer(0, vertices.positions.slice(..));
+        pass.set_vertex_buffer(1, vertices.attributes.slice(..));
+        pass.set_index_buffer(self.buffers.meshes[mesh].indices.slice(..), wgpu::IndexFormat::Uint32);
+    }
+
     fn record_runs(&self, pass: &mut wgpu::RenderPass<'_>, scene: &Scene, runs: &[Run], view: usize, drawn: &mut Drawn) {
         let instances: Vec<_> = scene.instances().collect();
         for Run { surface, triangles: [from, to] } in runs {
             let (_, node, mesh) = instances[surface.instance];
             let (primitive, mesh_index) = (mesh.primitives[surface.primitive], node.mesh.unwrap_or(0));
-            let vertices = self.buffers.vertices(surface.instance, mesh_index);
-            pass.set_vertex_buffer(0, vertices.positions.slice(..));
-            pass.set_vertex_buffer(1, vertices.attributes.slice(..));
-            pass.set_index_buffer(self.buffers.meshes[mesh_index].indices.slice(..), wgpu::IndexFormat::Uint32);
+            self.bind_mesh(pass, surface.instance, mesh_index);
             pass.set_bind_group(1, &self.buffers.materials[primitive.material], &[]);
             let object = u32::try_from(view * instances.len() + surface.instance).unwrap_or(0);
             pass.draw_indexed(primitive.first_index + from * 3..primitive.first_index + to * 3, 0, object..object + 1);

@@ -8,6 +8,7 @@ pub mod catalog;
 pub mod figures;
 pub mod json;
 pub mod render;
+mod report;
 mod save;
 pub mod tour;
 pub mod verify;

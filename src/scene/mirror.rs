@@ -15,7 +15,7 @@ use thiserror::Error;
 
 use super::{AlphaMode, Mesh, Node, Pose, Scene};
 use crate::geometry::planar::{self, Uneven};
-use crate::settings::{MirrorMode, MirrorPlace, Mirrors};
+use crate::settings::{MirrorMode, Mirrors, SurfacePlace, toggle};
 
 /// How a material reflects.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -175,7 +175,7 @@ impl Scene {
         if settings.mode == MirrorMode::Off {
             return (Vec::new(), Vec::new());
         }
-        let place = |mirror: &Mirror| MirrorPlace { node: mirror.node, primitive: mirror.primitive };
+        let place = |mirror: &Mirror| SurfacePlace { node: mirror.node, primitive: mirror.primitive };
         let kept = |mirror: &&Mirror| settings.edits.get(&place(mirror)) != Some(&false) && mirror.look.reflectivity > 0.0;
         let mut mirrors: Vec<_> = self.mirrors.iter().filter(kept).cloned().collect();
         let mut refused = Vec::new();
@@ -195,7 +195,7 @@ impl Scene {
     ///
     /// # Errors
     /// Why it cannot.
-    pub fn can_mirror(&self, place: MirrorPlace) -> Result<(), Refusal> {
+    pub fn can_mirror(&self, place: SurfacePlace) -> Result<(), Refusal> {
         Mirror::of(self, place.node, place.primitive, Reflective::default()).map(|_| ())
     }
 
@@ -203,18 +203,9 @@ impl Scene {
     ///
     /// # Errors
     /// Why it cannot be a mirror: nothing has changed then.
-    pub fn toggle_mirror(&self, settings: &mut Mirrors, place: MirrorPlace) -> Result<bool, Refusal> {
+    pub fn toggle_mirror(&self, settings: &mut Mirrors, place: SurfacePlace) -> Result<bool, Refusal> {
         let marked = self.mirrors.iter().any(|mirror| mirror.node == place.node && mirror.primitive == place.primitive);
-        let on = !settings.edits.get(&place).copied().unwrap_or(marked);
-        if on && !marked {
-            self.can_mirror(place)?;
-        }
-        if on == marked {
-            settings.edits.remove(&place);
-        } else {
-            settings.edits.insert(place, on);
-        }
-        Ok(on)
+        toggle(&mut settings.edits, place, marked, || self.can_mirror(place))
     }
 
     /// Looks for the surfaces that are marked mirrors and fills [`Scene::mirrors`]; says which are none, and

@@ -3,12 +3,12 @@
 use glam::DVec3;
 
 use super::{Pose, Scene};
-use crate::settings::MirrorPlace;
+use crate::settings::SurfacePlace;
 
 /// The surface that a ray from `eye` meets first, not before `nearest` times `direction` (world space): from the
 /// front, or from behind where its material shows that. Holes of masks are closed to it.
 #[must_use]
-pub fn surface_at(scene: &Scene, pose: &Pose, eye: DVec3, direction: DVec3, nearest: f64) -> Option<MirrorPlace> {
+pub fn surface_at(scene: &Scene, pose: &Pose, eye: DVec3, direction: DVec3, nearest: f64) -> Option<SurfacePlace> {
     let mut found = None;
     let mut farthest = f64::INFINITY;
     for (node, _, mesh) in scene.instances() {
@@ -25,7 +25,7 @@ pub fn surface_at(scene: &Scene, pose: &Pose, eye: DVec3, direction: DVec3, near
                 let corners = corners.map(|vertex| positions[vertex as usize].as_dvec3());
                 if let Some(at) = crossing(from, way, corners, both_sides).filter(|at| (nearest..farthest).contains(at)) {
                     farthest = at;
-                    found = Some(MirrorPlace { node, primitive });
+                    found = Some(SurfacePlace { node, primitive });
                 }
             }
         }

@@ -10,7 +10,7 @@ use glam::{DVec3, DVec4};
 use super::mirror::posed;
 use super::{AlphaMode, Mesh, Node, Pose, PosedMirror, Refusal, Scene};
 use crate::geometry::planar::{height, plane_of};
-use crate::settings::{MirrorPlace, Planar};
+use crate::settings::{Planar, SurfacePlace, toggle};
 
 /// A surface that takes planar shadows.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,8 +80,8 @@ impl Receiver {
         Ok(PosedReceiver { plane, room: 2.0 * off + ROUNDING * largest })
     }
 
-    fn place(&self) -> MirrorPlace {
-        MirrorPlace { node: self.node, primitive: self.primitive }
+    fn place(&self) -> SurfacePlace {
+        SurfacePlace { node: self.node, primitive: self.primitive }
     }
 }
 
@@ -108,7 +108,7 @@ impl Scene {
     ///
     /// # Errors
     /// Why it cannot.
-    pub fn can_receive(&self, place: MirrorPlace) -> Result<(), Refusal> {
+    pub fn can_receive(&self, place: SurfacePlace) -> Result<(), Refusal> {
         Receiver::of(self, place.node, place.primitive).map(|_| ())
     }
 
@@ -116,18 +116,9 @@ impl Scene {
     ///
     /// # Errors
     /// Why it cannot be a receiver: nothing has changed then.
-    pub fn toggle_receiver(&self, settings: &mut Planar, place: MirrorPlace) -> Result<bool, Refusal> {
+    pub fn toggle_receiver(&self, settings: &mut Planar, place: SurfacePlace) -> Result<bool, Refusal> {
         let marked = self.receivers.iter().any(|receiver| receiver.place() == place);
-        let on = !settings.edits.get(&place).copied().unwrap_or(marked);
-        if on && !marked {
-            self.can_receive(place)?;
-        }
-        if on == marked {
-            settings.edits.remove(&place);
-        } else {
-            settings.edits.insert(place, on);
-        }
-        Ok(on)
+        toggle(&mut settings.edits, place, marked, || self.can_receive(place))
     }
 
     /// Looks for the surfaces that are marked receivers and fills [`Scene::receivers`]; says which are none, and why.

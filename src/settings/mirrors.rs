@@ -25,16 +25,39 @@ pub struct Mirrors {
     pub light: MirrorLight,
     /// What was changed of the scene's mirrors.
     #[serde(with = "as_list")]
-    pub edits: BTreeMap<MirrorPlace, bool>,
+    pub edits: BTreeMap<SurfacePlace, bool>,
 }
 
 /// A surface of the scene: one primitive of a node's mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub struct MirrorPlace {
+pub struct SurfacePlace {
     /// The scene's node.
     pub node: usize,
     /// Of its mesh.
     pub primitive: usize,
+}
+
+/// Turns a surface on where it was off, or off where it was on, by `edits` of what the scene has `marked`; `can` says whether
+/// one that is not marked may be on. Gives which of the two it is now.
+///
+/// # Errors
+/// What `can` says: nothing has changed then.
+pub fn toggle<E>(
+    edits: &mut BTreeMap<SurfacePlace, bool>,
+    place: SurfacePlace,
+    marked: bool,
+    can: impl FnOnce() -> Result<(), E>,
+) -> Result<bool, E> {
+    let on = !edits.get(&place).copied().unwrap_or(marked);
+    if on && !marked {
+        can()?;
+    }
+    if on == marked {
+        edits.remove(&place);
+    } else {
+        edits.insert(place, on);
+    }
+    Ok(on)
 }
 
 /// The narrowest texture of a reflection, pixels.
@@ -207,13 +230,13 @@ pub(super) mod as_list {
 
     use serde::{Deserialize as _, Deserializer, Serializer};
 
-    use super::MirrorPlace;
+    use super::SurfacePlace;
 
-    pub fn serialize<S: Serializer>(edits: &BTreeMap<MirrorPlace, bool>, to: S) -> Result<S::Ok, S::Error> {
+    pub fn serialize<S: Serializer>(edits: &BTreeMap<SurfacePlace, bool>, to: S) -> Result<S::Ok, S::Error> {
         to.collect_seq(edits)
     }
 
-    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<BTreeMap<MirrorPlace, bool>, D::Error> {
-        Ok(Vec::<(MirrorPlace, bool)>::deserialize(from)?.into_iter().collect())
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<BTreeMap<SurfacePlace, bool>, D::Error> {
+        Ok(Vec::<(SurfacePlace, bool)>::deserialize(from)?.into_iter().collect())
     }
 }

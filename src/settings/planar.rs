@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::MirrorPlace;
+use super::SurfacePlace;
 
 /// Shadows projected onto flat surfaces (K sections 4, 5 and 6.3).
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -16,7 +16,7 @@ pub struct Planar {
     pub hybrid: HybridPart,
     /// What was changed of the scene's receivers.
     #[serde(with = "super::mirrors::as_list")]
-    pub edits: BTreeMap<MirrorPlace, bool>,
+    pub edits: BTreeMap<SurfacePlace, bool>,
 }
 
 impl Planar {

@@ -9,7 +9,7 @@ use crate::frame::stencil::BitBudget;
 use crate::frame::{Camera, FramePlan};
 use crate::scene::pick::surface_at;
 use crate::scene::{Mirror, Reflective, Scene};
-use crate::settings::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorLight, MirrorMode, MirrorPlace, Mirrors};
+use crate::settings::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorLight, MirrorMode, Mirrors, SurfacePlace};
 
 /// A mode's name on its button.
 const fn title(mode: MirrorMode) -> &'static str {
@@ -148,7 +148,7 @@ pub(super) fn bits(ui: &mut Ui, budget: BitBudget) {
 
 /// The scene's mirrors and those that were made, each to be switched; and why some are none.
 fn list(ui: &mut Ui, settings: &mut Mirrors, scene: &Scene) {
-    let place_of = |mirror: &Mirror| MirrorPlace { node: mirror.node, primitive: mirror.primitive };
+    let place_of = |mirror: &Mirror| SurfacePlace { node: mirror.node, primitive: mirror.primitive };
     let mut mirrors = scene.mirrors.clone();
     let made = settings.edits.iter().filter(|(place, on)| **on && !mirrors.iter().any(|mirror| place_of(mirror) == **place));
     let made: Vec<_> = made.map(|(place, _)| Mirror::of(scene, place.node, place.primitive, Reflective::default())).collect();
@@ -187,17 +187,12 @@ fn list(ui: &mut Ui, settings: &mut Mirrors, scene: &Scene) {
         let _ = scene.toggle_mirror(settings, place);
     }
     let (_, refused) = scene.mirrors_in_force(settings);
-    for why in refused {
-        ui.add(egui::Label::new(RichText::new(capital(&why)).small().color(style::WARNING)).wrap());
-    }
+    tell_refused(ui, refused);
 }
 
 /// A click on the picture, to make a mirror of a surface or an ordinary surface of a mirror; says which.
 pub fn click(desk: &mut Desk<'_>, view: &View<'_>, camera: &Camera, picture: Rect, at: Pos2, actions: &mut Vec<Action>) {
-    let (Some(scene), Some(pose)) = (view.scene, view.pose) else { return };
-    let direction = gizmo::ray(camera, picture, at);
-    let Some(place) = surface_at(scene, pose, camera.eye, direction, camera.near) else { return };
-    let name = scene.nodes.get(place.node).map_or("", |node| node.name.as_str());
+    let Some((scene, place, name)) = surface_under(view, camera, picture, at) else { return };
     let settings = &mut desk.settings.mirrors;
     let (tone, words) = match scene.toggle_mirror(settings, place) {
         Ok(true) if settings.mode == MirrorMode::Off => (Tone::Warning, format!("{name} is a mirror; but no mirrors are drawn.")),
@@ -206,4 +201,23 @@ pub fn click(desk: &mut Desk<'_>, view: &View<'_>, camera: &Camera, picture: Rec
         Err(why) => (Tone::Warning, format!("{name} cannot be a mirror: {why}.")),
     };
     actions.push(Action::Tell(Notice { topic: Topic::Mirrors, tone, words }));
+}
+
+/// The surface under the mouse, and its node's name.
+pub(super) fn surface_under<'v>(
+    view: &View<'v>,
+    camera: &Camera,
+    picture: Rect,
+    at: Pos2,
+) -> Option<(&'v Scene, SurfacePlace, &'v str)> {
+    let (scene, pose) = (view.scene?, view.pose?);
+    let place = surface_at(scene, pose, camera.eye, gizmo::ray(camera, picture, at), camera.near)?;
+    Some((scene, place, scene.nodes.get(place.node).map_or("", |node| node.name.as_str())))
+}
+
+/// Why surfaces that the settings speak of are not what they are to be.
+pub(super) fn tell_refused(ui: &mut Ui, refused: Vec<String>) {
+    for why in refused {
+        ui.add(egui::Label::new(RichText::new(capital(&why)).small().color(style::WARNING)).wrap());
+    }
 }

@@ -4,12 +4,11 @@ use egui::{Pos2, Rect, RichText, Ui};
 
 use super::style::{self, explain};
 use super::technique::capital;
-use super::{Action, Desk, Marks, Notice, Panel, Tone, Topic, View, gizmo, mirrors};
+use super::{Action, Desk, Marks, Notice, Panel, Tone, Topic, View, mirrors};
 use crate::app::keys::{Command, key_of};
 use crate::frame::{Camera, FramePlan, Method};
-use crate::scene::pick::surface_at;
 use crate::scene::{Receiver, Scene};
-use crate::settings::{HybridPart, MirrorPlace, Planar, PlanarMode};
+use crate::settings::{HybridPart, Planar, PlanarMode, SurfacePlace};
 use crate::techniques::planar::is_on;
 
 /// A mode's name on its button.
@@ -86,7 +85,7 @@ fn thrown(plan: &FramePlan, light: usize) -> String {
 
 /// The scene's receivers and those that were made, each to be switched; and why some are none.
 fn list(ui: &mut Ui, settings: &mut Planar, scene: &Scene) {
-    let place_of = |receiver: &Receiver| MirrorPlace { node: receiver.node, primitive: receiver.primitive };
+    let place_of = |receiver: &Receiver| SurfacePlace { node: receiver.node, primitive: receiver.primitive };
     let mut receivers = scene.receivers.clone();
     let edits = settings.edits.iter().filter(|(_, on)| **on);
     let made = edits.filter(|(place, _)| !scene.receivers.iter().any(|receiver| place_of(receiver) == **place));
@@ -116,17 +115,12 @@ fn list(ui: &mut Ui, settings: &mut Planar, scene: &Scene) {
         let _ = scene.toggle_receiver(settings, place);
     }
     let (_, refused) = scene.receivers_in_force(settings);
-    for why in refused {
-        ui.add(egui::Label::new(RichText::new(capital(&why)).small().color(style::WARNING)).wrap());
-    }
+    mirrors::tell_refused(ui, refused);
 }
 
 /// A click on the picture, to let a surface take planar shadows or none any more; says which.
 pub fn click(desk: &mut Desk<'_>, view: &View<'_>, camera: &Camera, picture: Rect, at: Pos2, actions: &mut Vec<Action>) {
-    let (Some(scene), Some(pose)) = (view.scene, view.pose) else { return };
-    let direction = gizmo::ray(camera, picture, at);
-    let Some(place) = surface_at(scene, pose, camera.eye, direction, camera.near) else { return };
-    let name = scene.nodes.get(place.node).map_or("", |node| node.name.as_str());
+    let Some((scene, place, name)) = mirrors::surface_under(view, camera, picture, at) else { return };
     let settings = &mut desk.settings.planar;
     let (tone, words) = match scene.toggle_receiver(settings, place) {
         Ok(true) if settings.mode == PlanarMode::Off => {
