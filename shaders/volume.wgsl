@@ -37,7 +37,8 @@ fn volume_count_backs(@builtin(front_facing) front: bool) {
     }
 }
 
-// A planar shadow, where it is more than a mark in the stencil: premultiplied.
+// A planar shadow, where it is more than a mark in the stencil: premultiplied. And a one for each fragment, where fill is
+// counted.
 @fragment
 fn projected() -> @location(0) vec4f {
     return vec4f(draw.constant.rgb * draw.constant.a, draw.constant.a);

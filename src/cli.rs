@@ -8,6 +8,7 @@
 //! [`render_command`] goes the other way: settings to the command line that draws them again,
 //! which pictures carry and the window copies to the clipboard.
 
+mod bench;
 mod command_line;
 mod complexity;
 mod counting;
@@ -25,6 +26,7 @@ mod planar;
 mod playground;
 mod verify;
 
+pub use bench::{BenchRequest, DEFAULT_FRAMES};
 pub use command_line::render_command;
 pub use input::{InputError, MAX_COORDINATE, MAX_EXPOSURE, check, check_against};
 pub use verify::{RANDOM_SIZE, VerifyRequest};
@@ -61,6 +63,13 @@ pub enum Command {
         /// What is drawn and asked.
         request: Box<VerifyRequest>,
         /// Prints what was found as JSON.
+        json: bool,
+    },
+    /// Measures frames.
+    Bench {
+        /// What is drawn, and how often.
+        request: BenchRequest,
+        /// Prints what was measured as JSON.
         json: bool,
     },
     /// Draws a board of the playground, or prints its calls.
@@ -143,6 +152,7 @@ pub fn parse<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) 
         None => &cli.window.picture,
         Some(Subcommands::Render(render)) => &render.picture,
         Some(Subcommands::Verify(verify)) => &verify.picture,
+        Some(Subcommands::Bench(bench)) => &bench.picture,
         Some(_) => return Ok(Parsed { cli, bare }),
     };
     if let (Some(Subcommands::Verify(_)), Some(_)) = (&cli.command, &picture.show) {
@@ -185,6 +195,10 @@ impl Parsed {
             Some(Subcommands::Verify(verify)) => {
                 let json = verify.json;
                 Command::Verify { request: Box::new(verify.request()?), json }
+            }
+            Some(Subcommands::Bench(bench)) => {
+                let json = bench.json;
+                Command::Bench { request: bench.request()?, json }
             }
             Some(Subcommands::Playground(playground)) => playground.request()?,
             Some(Subcommands::List { json }) => Command::List { json },
@@ -265,6 +279,12 @@ enum Subcommands {
     /// are decided. Ends with exit code 1 if a technique that claims to be exact has one wrong decided
     /// pixel; techniques known to fail only have theirs counted.
     Verify(Box<verify::VerifyArguments>),
+    /// Measures how long frames take, and what their shadow volumes cost
+    ///
+    /// The lights go round in small circles, so that nothing can be kept from one frame to the next. Each frame is planned,
+    /// drawn and waited for; some are drawn before any is measured. Printed are medians, with the 10th and the
+    /// 90th percentile. `--technique` takes several, separated by commas, or `all`.
+    Bench(Box<bench::BenchArguments>),
     /// Draws shapes into the stencil, one after another, every state free to choose
     ///
     /// The stencil that comes of it is shown as colours and, with --numbers, as numbers. --calls prints what

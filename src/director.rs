@@ -98,6 +98,21 @@ pub fn stage_frame(
     capabilities: &Capabilities,
     frame: u32,
 ) -> Result<(Pose, FramePlan), StageError> {
+    stage_changed(settings, scene, capabilities, frame, |_| ())
+}
+
+/// [`stage_frame`] of a moment that `change` has made another one: it is given the scene's pose before light comes
+/// off mirrors, and before lights with a size become points.
+///
+/// # Errors
+/// Settings that ask for what is not there.
+pub fn stage_changed(
+    settings: &Settings,
+    scene: &Scene,
+    capabilities: &Capabilities,
+    frame: u32,
+    change: impl FnOnce(&mut Pose),
+) -> Result<(Pose, FramePlan), StageError> {
     let [width, height] = settings.size;
     let largest = capabilities.max_size.min(crate::settings::MAX_SIZE);
     if width == 0 || height == 0 || width > largest || height > largest {
@@ -112,6 +127,7 @@ pub fn stage_frame(
     let in_force = planar_shadows::in_force(&failures::while_on(settings));
     let settings = &in_force;
     let mut pose = pose(scene, settings.time, settings.animation.unwrap_or(scene.default_animation), &settings.lights);
+    change(&mut pose);
     if settings.mirrors.light == MirrorLight::Virtual {
         pose.add_lights_off(scene, &scene.mirrors_in_force(&settings.mirrors).0);
     }

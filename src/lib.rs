@@ -45,7 +45,7 @@
 //! | [`gpu`] | the device, shaders, pipelines, buffers, encoding, read-back, timing |
 //! | [`figures`] | the papers' figures: what is to be seen in each, and the settings that draw it |
 //! | [`truth`] | exact rays: what each pixel must be, and the comparison with what was drawn |
-//! | [`headless`] | pictures, the tour, lists and reports without a window |
+//! | [`headless`] | pictures, the tour, lists, reports and measurements without a window |
 //! | [`app`] | the window: loop, surface, input, and the panel, which edits settings and nothing else |
 //!
 //! Imports go downward: `app` and `headless` to `director`, to `failures` and `techniques`, to `frame`, to `scene`, to

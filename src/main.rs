@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use obscura::cli::{self, Command, WindowRequest};
-use obscura::headless::{self, catalog::Catalog, render::render, tour, verify::verify};
+use obscura::headless::{self, bench::bench, catalog::Catalog, render::render, tour, verify::verify};
 use obscura::scene::doctor;
 use obscura::techniques::playground;
 use serde::Serialize;
@@ -65,6 +65,7 @@ fn run(command: Command) -> Result<(), Failure> {
                 wrong => Err(Failure(format!("{wrong} pixels are wrong by techniques that claim to be exact"))),
             }
         }
+        Command::Bench { request, json } => print_as(&bench(&request)?, json),
         Command::Playground { settings, out, calls } => {
             if let Some(out) = out {
                 render(&settings, &out, false)?;

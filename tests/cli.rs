@@ -489,6 +489,58 @@ fn hostile_files_are_one_line_each() {
 }
 
 #[test]
+fn bench_measures_each_scene_by_each_technique() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let arguments = ["bench", "cubes", "shadowfun", "--technique", "none,z-fail", "--frames", "3", "--size", "64x36"];
+    let json: Value = serde_json::from_str(&good(here, &[&arguments[..], &["--json"]].concat())).unwrap();
+    let rows = json.as_array().unwrap();
+    let of: Vec<_> = rows.iter().map(|row| (row["scene"].as_str().unwrap(), row["technique"].as_str().unwrap())).collect();
+    assert_eq!(of, [("cubes", "none"), ("cubes", "z-fail"), ("shadowfun", "none"), ("shadowfun", "z-fail")]);
+    for row in rows {
+        let fields: Vec<_> = row.as_object().unwrap().keys().map(String::as_str).collect();
+        assert_eq!(
+            fields,
+            // In the order of the alphabet, as the reader has them.
+            [
+                "cpu_ms",
+                "fragments_per_pixel",
+                "frame_ms",
+                "frames",
+                "gpu_ms",
+                "height",
+                "indices",
+                "scene",
+                "technique",
+                "volume_triangles",
+                "width"
+            ]
+        );
+        assert_eq!((&row["width"], &row["height"], &row["frames"]), (&64.into(), &36.into(), &3.into()));
+        for spread in ["frame_ms", "cpu_ms", "gpu_ms"].map(|name| &row[name]).into_iter().filter(|spread| !spread.is_null()) {
+            let [p10, median, p90] = ["p10", "median", "p90"].map(|name| spread[name].as_f64().unwrap());
+            assert!(0.0 <= p10 && p10 <= median && median <= p90 && p90 > 0.0, "{row}");
+        }
+        let volumes = row["technique"] == "z-fail";
+        for count in ["fragments_per_pixel", "volume_triangles", "indices"] {
+            assert_eq!(row[count].as_f64().unwrap() > 0.0, volumes, "{row}");
+        }
+    }
+    let text = good(here, &["bench", "--failure", "dark-cap-fan", "--frames", "1", "--size", "64x36"]);
+    assert!(text.contains("fragments a pixel") && text.lines().count() == 4, "{text}");
+    for arguments in [
+        &["bench", "cubes", "--technique", "auto,guess"][..],
+        &["bench", "cubes", "--frames", "0"],
+        &["bench", "cubes", "no-such-scene"],
+        &["bench", "cubes", "--camera", "nobody"],
+        &["bench", "cubes", "--size", "0x5"],
+    ] {
+        bad(here, arguments);
+    }
+    assert!(names(here).is_empty());
+}
+
+#[test]
 fn verify_says_what_is_wrong_and_ends_with_it() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();

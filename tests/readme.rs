@@ -66,6 +66,7 @@ fn every_option_is_listed_and_no_other() {
         &["tour", "--help"],
         &["figures", "--help"],
         &["verify", "--help"],
+        &["bench", "--help"],
         &["playground", "--help"],
     ] {
         let output = Command::new(env!("CARGO_BIN_EXE_obscura")).args(command).output().unwrap();

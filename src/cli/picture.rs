@@ -26,7 +26,7 @@ pub(super) struct PictureArguments {
     /// A classic mistake, made on purpose (`obscura list` names them); without SCENE it is shown on a scene of
     /// its own
     #[arg(long, value_name = "NAME")]
-    failure: Option<String>,
+    pub(super) failure: Option<String>,
     /// The light that stencil, shadow and volumes look at, from 0
     #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = index)]
     pub(super) light: Option<usize>,

@@ -284,6 +284,8 @@ pub enum Program {
     Pattern,
     /// Full screen: the picture that was kept of the eye's view, as it is.
     LayKept,
+    /// Shadow volumes in the constant: their fill is counted so.
+    VolumeFill,
 }
 
 /// What a step draws, by number.

@@ -183,6 +183,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::Projected, "volume.wgsl", "thrown_vertex", "projected", Vertices::Volume, &[]),
     entry(Program::Pattern, "dissolve.wgsl", "full_screen_vertex", "pattern", Vertices::None, &[]),
     entry(Program::LayKept, "dissolve.wgsl", "full_screen_vertex", "lay_kept", Vertices::None, &[]),
+    entry(Program::VolumeFill, "volume.wgsl", "volume_vertex", "projected", Vertices::Volume, &[]),
 ];
 
 /// The entry of a program.

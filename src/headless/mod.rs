@@ -2,8 +2,10 @@
 //!
 //! - [`render`] draws one picture, [`tour`] all of them; [`save`](save_png) writes them whole or not at all;
 //! - [`verify`] holds what is drawn against exact rays, also on random views ([`wander`]);
+//! - [`bench`] measures frames, one by one;
 //! - [`json`] is what `render --json` prints, [`catalog`] what `list` prints.
 
+pub mod bench;
 pub mod catalog;
 pub mod figures;
 pub mod json;

@@ -22,6 +22,7 @@ mod cutout;
 pub mod decals;
 pub mod depth_bounds;
 mod exact_z_pass;
+pub mod fill;
 mod flattened;
 pub mod halo;
 pub mod labels;
