@@ -6,8 +6,10 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::{DVec3, Vec3, Vec4};
 use obscura::geometry::flatten::{Flattener, flattening_plane};
+use obscura::geometry::overlap::OverlapScratch;
 use obscura::geometry::{
-    Aabb, Caster, Facing, Planes, Topology, VolumeParts, VolumeScratch, Weld, holding_count, silhouette::silhouette, terminator,
+    Aabb, Caster, Facing, Planes, Silhouette, Topology, VolumeParts, VolumeScratch, Weld, holding_count, silhouette::silhouette,
+    terminator,
 };
 
 /// Positions and indices of a trefoil's tube, closed and outward, of `2 * rings * sides` triangles.
@@ -70,6 +72,17 @@ fn geometry(criterion: &mut Criterion) {
     let (mut facing, mut edges) = (Facing::default(), Vec::new());
     group.bench_function("facing", |bencher| bencher.iter(|| facing.decide(&topology, &planes, &welded, black_box(lights[0].1))));
     group.bench_function("silhouette from facing", |bencher| bencher.iter(|| silhouette(&topology, &facing, &mut edges)));
+    let mut seen = Silhouette::default();
+    group.bench_function("facing and silhouette, all cores", |bencher| {
+        bencher.iter(|| seen.find(caster, black_box(lights[0].1)));
+    });
+    group.bench_function("bound on the winding", |bencher| {
+        bencher.iter(|| {
+            // Found anew: what is known costs nothing.
+            seen.find(caster, lights[0].1);
+            OverlapScratch::default().winding_bound(caster, black_box(lights[0].1), &seen, 255)
+        });
+    });
     let (mut scratch, mut out) = (VolumeScratch::default(), Vec::<u32>::new());
     for (name, light) in lights {
         for (what, parts) in [("facing, silhouette and sides", VolumeParts::SIDES), ("whole volume", VolumeParts::ALL)] {

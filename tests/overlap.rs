@@ -5,12 +5,14 @@ mod shapes;
 
 use glam::{DVec3, Vec3, Vec4};
 use obscura::geometry::overlap::{OverlapScratch, is_convex};
-use obscura::geometry::{Facing, VolumeParts};
+use obscura::geometry::{Facing, Silhouette, VolumeParts};
 use proptest::prelude::*;
 use shapes::{Shape, Surface, cube, light, place, shape, sphere, torus};
 
 fn bound(shape: &Shape, light: Vec4, enough: u32) -> u32 {
-    OverlapScratch::default().winding_bound(shape.caster(), light, enough)
+    let mut silhouette = Silhouette::default();
+    silhouette.find(shape.caster(), light);
+    OverlapScratch::default().winding_bound(shape.caster(), light, &silhouette, enough)
 }
 
 /// The most triangles that any of many rays from the light crosses: towards all middles of

@@ -35,7 +35,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DMat3, DVec2, DVec3, Vec3, Vec4};
 
-use super::silhouette::{Facing, silhouette};
+use super::kept::Silhouette;
 use super::volume::Caster;
 use super::{Aabb, Topology};
 
@@ -85,9 +85,8 @@ pub fn is_convex(topology: &Topology, positions: &[Vec3]) -> bool {
 pub struct OverlapScratch {
     /// How many edges may still be looked at to make bounds smaller than the plain sweep's.
     pub patience: usize,
-    facing: Facing,
-    edges: Vec<[u32; 2]>,
-    seen: Vec<DVec3>,
+    /// The silhouette's ends, turned so that z runs to the pole.
+    seen: Vec<[DVec3; 2]>,
     sweep: Sweep,
 }
 
@@ -95,7 +94,7 @@ impl Default for OverlapScratch {
     fn default() -> Self {
         /// Some milliseconds.
         const PATIENCE: usize = 400_000;
-        Self { patience: PATIENCE, facing: Facing::default(), edges: Vec::new(), seen: Vec::new(), sweep: Sweep::default() }
+        Self { patience: PATIENCE, seen: Vec::new(), sweep: Sweep::default() }
     }
 }
 
@@ -103,15 +102,22 @@ impl OverlapScratch {
     /// How often at most the volume of `caster` before `light` (object space, as
     /// [`super::volume::VolumeScratch::append`] takes it) winds around any point. A bound of
     /// `enough` or less is as good as any, and not made smaller.
-    pub fn winding_bound(&mut self, caster: Caster<'_>, light: Vec4, enough: u32) -> u32 {
-        let Caster { topology, welded, planes, bounds } = caster;
-        self.facing.decide(topology, planes, welded, light);
-        let counted = self.facing.contributions().iter().filter(|counts| **counts != 0).count();
+    pub fn winding_bound(&mut self, caster: Caster<'_>, light: Vec4, silhouette: &Silhouette, enough: u32) -> u32 {
+        let mut patience = self.patience;
+        let bound =
+            silhouette.bound(enough, &mut patience, |patience| self.find_bound(caster, light, silhouette, enough, patience));
+        self.patience = patience;
+        bound
+    }
+
+    fn find_bound(&mut self, caster: Caster<'_>, light: Vec4, silhouette: &Silhouette, enough: u32, patience: &mut usize) -> u32 {
+        let Caster { topology, welded, bounds, .. } = caster;
+        let contributions = silhouette.facing().contributions();
+        let counted = contributions.iter().filter(|counts| **counts != 0).count();
         let mut best = u32::try_from(counted).unwrap_or(u32::MAX);
         if best <= 1 {
             return best;
         }
-        silhouette(topology, &self.facing, &mut self.edges);
         let directional = light.w == 0.0;
         let from = light.truncate().as_dvec3();
         let center = bounds.center().as_dvec3();
@@ -125,18 +131,25 @@ impl OverlapScratch {
             // Azimuth grows to the left, as seen from the light.
             let east = if directional { pole.cross(forward) } else { pole.any_orthonormal_vector() };
             let to_sweep = DMat3::from_cols(east, pole.cross(east), pole).transpose();
+            let turned = |vertex: u32| {
+                let vertex = welded[vertex as usize].as_dvec3();
+                to_sweep * if directional { vertex } else { vertex - from }
+            };
             self.seen.clear();
+            self.seen.extend(silhouette.edges().iter().map(|edge| edge.map(turned)));
             let bound = if directional {
-                self.seen.extend(welded.iter().map(|vertex| to_sweep * vertex.as_dvec3()));
-                self.sweep.lay_parallel(&self.edges, &self.seen);
-                self.sweep.bound(0, enough, &mut self.patience)
+                self.sweep.lay_parallel(&self.seen);
+                self.sweep.bound(0, enough, patience)
             } else {
-                self.seen.extend(welded.iter().map(|vertex| to_sweep * (vertex.as_dvec3() - from)));
-                let Some(at_pole) = self.crossed_at_pole(topology) else { continue };
-                if !self.sweep.lay_meridians(&self.edges, &self.seen) {
+                // Mostly the pole's line misses the caster's box, and so all of its triangles.
+                let beside = misses_pole(bounds.corners().map(|corner| to_sweep * (corner - from)));
+                let Some(at_pole) = (if beside { Some(0) } else { crossed_at_pole(topology, contributions, turned) }) else {
+                    continue;
+                };
+                if !self.sweep.lay_meridians(&self.seen) {
                     continue;
                 }
-                self.sweep.bound(at_pole, enough, &mut self.patience)
+                self.sweep.bound(at_pole, enough, patience)
             };
             best = best.min(bound);
             if best <= enough {
@@ -145,33 +158,42 @@ impl OverlapScratch {
         }
         best
     }
+}
 
-    /// How many counted triangles the ray from the light to the pole crosses; `None` where it
-    /// passes too near to an edge to tell.
-    fn crossed_at_pole(&self, topology: &Topology) -> Option<u32> {
-        let mut crossed = 0;
-        for (triangle, counts) in topology.triangles().iter().zip(self.facing.contributions()) {
-            let [a, b, c] = triangle.map(|welded| self.seen[welded as usize]);
-            if *counts == 0 || (a.z < 0.0 && b.z < 0.0 && c.z < 0.0) {
-                continue;
-            }
-            let turns = [(a, b), (b, c), (c, a)].map(|(from, to)| from.truncate().perp_dot(to.truncate()));
-            let left = turns.iter().all(|turn| *turn >= 0.0);
-            let right = turns.iter().all(|turn| *turn <= 0.0);
-            if !left && !right {
-                continue;
-            }
-            let twice_area: f64 = turns.iter().sum();
-            let size = [a, b, c].iter().map(|corner| corner.truncate().length_squared()).fold(0.0, f64::max);
-            if turns.iter().any(|turn| turn.abs() <= ROUNDING * size) {
-                // On an edge, or seen edge-on.
-                return None;
-            }
-            let height = (turns[1] * a.z + turns[2] * b.z + turns[0] * c.z) / twice_area;
-            crossed += u32::from(height > 0.0);
+/// Whether a box lies wholly beside the pole's line, by more than rounding.
+fn misses_pole(corners: [DVec3; 8]) -> bool {
+    const SLACK: f64 = 1e-5;
+    let size = corners.iter().map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
+    [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y]
+        .iter()
+        .any(|side| corners.iter().all(|corner| side.dot(corner.truncate()) > SLACK * size))
+}
+
+/// How many counted triangles the ray from the light to the pole crosses; `None` where it
+/// passes too near to an edge to tell. `turned` says where a vertex is.
+fn crossed_at_pole(topology: &Topology, contributions: &[i8], turned: impl Fn(u32) -> DVec3) -> Option<u32> {
+    let mut crossed = 0;
+    for (triangle, _) in topology.triangles().iter().zip(contributions).filter(|(_, counts)| **counts != 0) {
+        let [a, b, c] = triangle.map(&turned);
+        if a.z < 0.0 && b.z < 0.0 && c.z < 0.0 {
+            continue;
         }
-        Some(crossed)
+        let turns = [(a, b), (b, c), (c, a)].map(|(from, to)| from.truncate().perp_dot(to.truncate()));
+        let left = turns.iter().all(|turn| *turn >= 0.0);
+        let right = turns.iter().all(|turn| *turn <= 0.0);
+        if !left && !right {
+            continue;
+        }
+        let twice_area: f64 = turns.iter().sum();
+        let size = [a, b, c].iter().map(|corner| corner.truncate().length_squared()).fold(0.0, f64::max);
+        if turns.iter().any(|turn| turn.abs() <= ROUNDING * size) {
+            // On an edge, or seen edge-on.
+            return None;
+        }
+        let height = (turns[1] * a.z + turns[2] * b.z + turns[0] * c.z) / twice_area;
+        crossed += u32::from(height > 0.0);
     }
+    Some(crossed)
 }
 
 /// Relative, of double precision sums of a few terms: generous.
@@ -232,10 +254,9 @@ impl Height {
 
 impl Sweep {
     /// Takes the silhouette as a parallel light sees it: x to the left, z up.
-    fn lay_parallel(&mut self, silhouette: &[[u32; 2]], seen: &[DVec3]) {
+    fn lay_parallel(&mut self, silhouette: &[[DVec3; 2]]) {
         self.edges.clear();
-        for edge in silhouette {
-            let [a, b] = edge.map(|welded| seen[welded as usize]);
+        for &[a, b] in silhouette {
             if a.x == b.x {
                 continue;
             }
@@ -251,11 +272,10 @@ impl Sweep {
 
     /// Takes the silhouette by azimuth about z; false where an edge passes too near to the pole to
     /// say on which side.
-    fn lay_meridians(&mut self, silhouette: &[[u32; 2]], seen: &[DVec3]) -> bool {
+    fn lay_meridians(&mut self, silhouette: &[[DVec3; 2]]) -> bool {
         const NEAR_POLE: f64 = 1e-7;
         self.edges.clear();
-        for edge in silhouette {
-            let [a, b] = edge.map(|welded| seen[welded as usize]);
+        for &[a, b] in silhouette {
             let [flat_a, flat_b] = [a, b].map(|point| point.truncate());
             let along = flat_b - flat_a;
             let at = (-flat_a.dot(along) / along.length_squared()).clamp(0.0, 1.0);
@@ -504,7 +524,7 @@ mod tests {
     fn a_plane_through_the_light_stands_as_high_as_its_points() {
         let (a, b) = (DVec3::new(3.0, -1.0, 0.7), DVec3::new(2.0, 2.0, -0.4));
         let mut sweep = Sweep::default();
-        assert!(sweep.lay_meridians(&[[0, 1]], &[a, b]));
+        assert!(sweep.lay_meridians(&[[a, b]]));
         let edge = sweep.edges[0];
         assert_eq!(edge.enters, 1, "it runs by growing azimuth");
         for step in 0..=20 {

@@ -8,8 +8,12 @@
 //! volumes that hold the eye) reads that decision. A triangle seen edge-on may be decided either
 //! way by rounding; because nobody asks twice, the volume is closed whatever the answer.
 
-use glam::{DAffine3, DVec3, DVec4, Vec3, Vec4};
+use std::sync::atomic::{AtomicU64, Ordering};
 
+use glam::{DAffine3, DVec3, DVec4, Vec3, Vec4};
+use rayon::prelude::*;
+
+use super::patches::Patches;
 use super::{Aabb, Topology};
 
 /// A light of world space (a point with w = 1, or the direction towards it with w = 0) in the
@@ -36,12 +40,15 @@ pub struct Planes {
     /// Each triangle's height over its longest edge, of the normal's length: what it is edge-on by.
     narrow: Vec<f32>,
     bounds: Aabb,
+    build: u64,
 }
 
 impl Planes {
     /// The planes of `topology` posed as `welded` (one position a welded vertex). They are not
     /// normalised: only the sign is used. Reuses the arrays.
     pub fn build(&mut self, topology: &Topology, welded: &[Vec3]) {
+        static BUILDS: AtomicU64 = AtomicU64::new(1);
+        self.build = BUILDS.fetch_add(1, Ordering::Relaxed);
         self.bounds = Aabb::from_points(welded.iter().copied());
         for array in [&mut self.x, &mut self.y, &mut self.z, &mut self.offset, &mut self.narrow] {
             array.clear();
@@ -58,9 +65,44 @@ impl Planes {
         }
     }
 
+    /// Decides triangles from `first` on into `out`, which has room for one block, and lists those seen edge-on.
+    fn decide_block(&self, seen: &EdgeOn, soup: &[bool], first: usize, out: &mut [i8], edge_on: &mut Vec<u32>) {
+        /// Few, because where one is edge-on all of them are looked at again.
+        const RUN: usize = 256;
+        edge_on.clear();
+        for (run, out) in out.chunks_mut(RUN).enumerate() {
+            let first = first + run * RUN;
+            // Slices of one length, so that the loop has no checks in it and runs several at a time.
+            let run = first..first + out.len();
+            let [x, y, z, offset, narrow] =
+                [&self.x, &self.y, &self.z, &self.offset, &self.narrow].map(|array| &array[run.clone()]);
+            let soup = &soup[run];
+            let height = |at: usize| seen.height([x[at], y[at], z[at], offset[at]], narrow[at]);
+            let mut unclear = 0u32;
+            for at in 0..out.len() {
+                let [height, least] = height(at);
+                out[at] = counts(height > if soup[at] { 0.0 } else { least }, soup[at]);
+                unclear += u32::from(!soup[at] & (height.abs() < least));
+            }
+            if unclear > 0 {
+                let is_edge_on = |at: &usize| {
+                    let [height, least] = height(*at);
+                    !soup[*at] & (height.abs() < least)
+                };
+                edge_on.extend((0..out.len()).filter(is_edge_on).map(|at| (first + at) as u32));
+            }
+        }
+    }
+
     /// Of one triangle, not normalised.
-    fn normal(&self, triangle: usize) -> Vec3 {
+    pub(super) fn normal(&self, triangle: usize) -> Vec3 {
         Vec3::new(self.x[triangle], self.y[triangle], self.z[triangle])
+    }
+
+    /// The number of the build that they are of: where it is the same, so are they.
+    #[must_use]
+    pub const fn build_number(&self) -> u64 {
+        self.build
     }
 
     /// Of how many triangles.
@@ -73,6 +115,26 @@ impl Planes {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.x.is_empty()
+    }
+}
+
+/// A mesh in one pose, as silhouettes see it.
+#[derive(Debug, Clone, Default)]
+pub struct Posed {
+    /// One position a welded vertex, object space.
+    pub welded: Vec<Vec3>,
+    /// Of its triangles.
+    pub planes: Planes,
+}
+
+impl Posed {
+    /// Of a mesh whose vertices are at `positions`.
+    #[must_use]
+    pub fn new(topology: &Topology, positions: &[Vec3]) -> Self {
+        let mut posed = Self::default();
+        topology.weld().gather(positions, &mut posed.welded);
+        posed.planes.build(topology, &posed.welded);
+        posed
     }
 }
 
@@ -97,7 +159,8 @@ pub(super) fn narrow(plane: Vec4, [a, b, c]: [Vec3; 3]) -> f32 {
 /// the two apart; and a silhouette that runs on the triangle's other side is off by no more than that.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EdgeOn {
-    light: Vec4,
+    /// In scalars, not lanes of one register: the loop over triangles is to take several triangles at a time.
+    light: [f32; 4],
     /// The light's largest coordinate.
     reach: f32,
     /// Some millionths of the coordinates, times the least distance from the light.
@@ -120,16 +183,16 @@ impl EdgeOn {
             (size.max(reach), light.truncate().distance(light.truncate().clamp(bounds.min, bounds.max)))
         };
         let room = Self::SHARE * size * distance;
-        Self { light, reach, room: if room.is_finite() { room } else { 0.0 } }
+        Self { light: light.to_array(), reach, room: if room.is_finite() { room } else { 0.0 } }
     }
 
     /// The light's height over a plane, and the height under which it sees the triangle edge-on. Neither is
     /// normalised.
     #[inline]
-    fn height(&self, plane: Vec4, narrow: f32) -> [f32; 2] {
-        let light = self.light;
-        let unsure = (plane.x.abs() + plane.y.abs() + plane.z.abs()) * self.reach + (plane.w * light.w).abs();
-        let height = plane.x * light.x + plane.y * light.y + plane.z * light.z + plane.w * light.w;
+    fn height(&self, [x, y, z, w]: [f32; 4], narrow: f32) -> [f32; 2] {
+        let [light_x, light_y, light_z, light_w] = self.light;
+        let unsure = (x.abs() + y.abs() + z.abs()) * self.reach + (w * light_w).abs();
+        let height = x * light_x + y * light_y + z * light_z + w * light_w;
         [height, (Self::ROUNDING * unsure).max(narrow * self.room)]
     }
 
@@ -137,8 +200,21 @@ impl EdgeOn {
     /// ([`Facing::decide`]).
     #[inline]
     pub(super) fn contribution(&self, plane: Vec4, narrow: f32, two_sided: bool) -> Option<i8> {
-        let [height, least] = self.height(plane, narrow);
+        let [height, least] = self.height(plane.to_array(), narrow);
         (height.abs() >= least).then(|| counts(height > 0.0, two_sided))
+    }
+}
+
+#[cfg(test)]
+impl EdgeOn {
+    /// [`Self::contribution`] of one of many.
+    pub(super) fn alone(&self, planes: &Planes, at: usize, two_sided: bool) -> Option<i8> {
+        let plane = Vec4::new(planes.x[at], planes.y[at], planes.z[at], planes.offset[at]);
+        if two_sided {
+            let [height, _] = self.height(plane.to_array(), planes.narrow[at]);
+            return Some(counts(height > 0.0, true));
+        }
+        self.contribution(plane, planes.narrow[at], false)
     }
 }
 
@@ -146,12 +222,18 @@ fn counts(facing: bool, two_sided: bool) -> i8 {
     i8::from(facing) - i8::from(two_sided & !facing)
 }
 
+/// Triangles that are decided in one go, and edges that are looked at.
+const BLOCK: usize = 1 << 12;
+/// Blocks that are worth waking other cores for (measured: 30,000 triangles take one core some 30 microseconds).
+const MANY_BLOCKS: usize = 8;
+
 /// What each triangle adds to the volume: +1 as it is, 0 nothing, -1 turned round.
 #[derive(Debug, Clone, Default)]
 pub struct Facing {
     contributions: Vec<i8>,
-    /// Which triangles have the light in their plane; empty where none has.
-    edge_on: Vec<bool>,
+    /// Which triangles have the light in their plane, block by block.
+    edge_on: Vec<Vec<u32>>,
+    patches: Patches,
 }
 
 impl Facing {
@@ -178,63 +260,22 @@ impl Facing {
     ///
     /// Of the soup every triangle counts, so it goes by the sign alone.
     pub fn decide(&mut self, topology: &Topology, planes: &Planes, welded: &[Vec3], light: Vec4) {
+        let seen = EdgeOn::new(&planes.bounds, light);
         let soup = topology.two_sided();
         let count = soup.len().min(planes.len());
-        // Slices of one length, so that the loop has no checks in it and runs several at a time.
-        let (x, y, z, offset) = (&planes.x[..count], &planes.y[..count], &planes.z[..count], &planes.offset[..count]);
-        let (narrow, soup) = (&planes.narrow[..count], &soup[..count]);
-        let plane = |at: usize| Vec4::new(x[at], y[at], z[at], offset[at]);
-        let seen = EdgeOn::new(&planes.bounds, light);
+        let blocks = count.div_ceil(BLOCK);
         self.contributions.resize(count, 0);
-        let mut edge_on = 0u32;
-        for (at, out) in self.contributions.iter_mut().enumerate() {
-            let [height, least] = seen.height(plane(at), narrow[at]);
-            *out = counts(height > if soup[at] { 0.0 } else { least }, soup[at]);
-            edge_on += u32::from(!soup[at] & (height.abs() < least));
+        self.edge_on.resize_with(blocks, Vec::new);
+        let decide = |(block, (out, edge_on)): (usize, (&mut [i8], &mut Vec<u32>))| {
+            planes.decide_block(&seen, soup, block * BLOCK, out, edge_on);
+        };
+        if blocks < MANY_BLOCKS {
+            self.contributions.chunks_mut(BLOCK).zip(&mut self.edge_on).enumerate().for_each(decide);
+        } else {
+            self.contributions.par_chunks_mut(BLOCK).zip(self.edge_on.par_iter_mut()).enumerate().for_each(decide);
         }
-        if edge_on > 0 {
-            self.edge_on.clear();
-            self.edge_on.extend((0..count).map(|at| !soup[at] && seen.contribution(plane(at), narrow[at], false).is_none()));
-            self.follow_neighbours(topology, planes, welded, light);
-        }
-    }
-
-    /// Decides the triangles that are edge-on, from those next to the light on.
-    fn follow_neighbours(&mut self, topology: &Topology, planes: &Planes, welded: &[Vec3], light: Vec4) {
-        let pairs = topology.pairs();
-        // Triangle, and the neighbour across an edge on its side towards the light.
-        let mut towards: Vec<(u32, u32)> = Vec::new();
-        for at in 0..pairs.a.len() {
-            for (triangle, neighbour, ends) in [
-                (pairs.forward[at], pairs.backward[at], [pairs.a[at], pairs.b[at]]),
-                (pairs.backward[at], pairs.forward[at], [pairs.b[at], pairs.a[at]]),
-            ] {
-                if self.edge_on[triangle as usize] {
-                    let [a, b] = ends.map(|vertex| welded[vertex as usize].as_dvec3());
-                    let normal = planes.normal(triangle as usize).as_dvec3();
-                    let outward = (b - a).cross(normal);
-                    let light = light.as_dvec4();
-                    if outward.dot(light.truncate() - a * light.w) > 0.0 {
-                        towards.push((triangle, neighbour));
-                    }
-                }
-            }
-        }
-        towards.sort_unstable();
-        // A neighbour may be edge-on itself: what it decides is passed on, through flat patches of this many
-        // triangles in a row. Where two neighbours disagree, one side must lie over a part of the triangle.
-        const PATCH: usize = 64;
-        for _ in 0..PATCH {
-            let mut changed = false;
-            for follows in towards.chunk_by(|a, b| a.0 == b.0) {
-                let decided = follows.iter().map(|(_, neighbour)| self.contributions[*neighbour as usize]).min().unwrap_or(0);
-                let own = &mut self.contributions[follows[0].0 as usize];
-                changed |= std::mem::replace(own, decided) != decided;
-            }
-            if !changed {
-                break;
-            }
-        }
+        let edge_on = self.edge_on.iter().flatten().copied();
+        self.patches.follow_neighbours(topology, planes, welded, light, edge_on, &mut self.contributions);
     }
 
     /// Decides for a cut-out, all of it on one plane: every triangle counts, those turned round whose
@@ -258,16 +299,39 @@ impl Facing {
 /// that the lit side's triangle, counter-clockwise seen from the light, runs a -> b. An edge whose
 /// triangles add up to m stands there |m| times.
 pub fn silhouette(topology: &Topology, facing: &Facing, edges: &mut Vec<[u32; 2]>) {
+    silhouette_in_blocks(topology, facing, &mut Vec::new(), edges);
+}
+
+/// The same; `blocks` is memory for what several cores find, kept from one to the next.
+pub(super) fn silhouette_in_blocks(
+    topology: &Topology,
+    facing: &Facing,
+    blocks: &mut Vec<Vec<[u32; 2]>>,
+    edges: &mut Vec<[u32; 2]>,
+) {
     edges.clear();
     let contributions = facing.contributions();
     let pairs = topology.pairs();
     let count = pairs.a.len();
-    let (forward, backward) = (&pairs.forward[..count], &pairs.backward[..count]);
-    for at in 0..count {
-        let change = i32::from(contributions[forward[at] as usize]) - i32::from(contributions[backward[at] as usize]);
-        if change != 0 {
-            repeat(edges, [pairs.a[at], pairs.b[at]], change);
+    let look_at = |block: std::ops::Range<usize>, edges: &mut Vec<[u32; 2]>| {
+        let (forward, backward) = (&pairs.forward[block.clone()], &pairs.backward[block.clone()]);
+        let ends = pairs.a[block.clone()].iter().zip(&pairs.b[block]);
+        for ((&forward, &backward), (&a, &b)) in forward.iter().zip(backward).zip(ends) {
+            let change = i32::from(contributions[forward as usize]) - i32::from(contributions[backward as usize]);
+            if change != 0 {
+                repeat(edges, [a, b], change);
+            }
         }
+    };
+    if count < MANY_BLOCKS * BLOCK {
+        look_at(0..count, edges);
+    } else {
+        blocks.resize_with(count.div_ceil(BLOCK), Vec::new);
+        blocks.par_iter_mut().enumerate().for_each(|(block, found)| {
+            found.clear();
+            look_at(block * BLOCK..((block + 1) * BLOCK).min(count), found);
+        });
+        edges.extend(blocks.iter().flatten());
     }
     for (ends, incidences) in topology.others().iter() {
         let sum = incidences.map(|(triangle, sign)| sign * i32::from(contributions[triangle as usize])).sum();

@@ -54,6 +54,19 @@ pub struct PairEdges {
     pub forward: Vec<u32>,
     /// The triangle that runs b -> a.
     pub backward: Vec<u32>,
+    /// Of each welded vertex, where the edges start whose smaller end it is; one more than there are vertices.
+    pub starts: Vec<u32>,
+}
+
+impl PairEdges {
+    /// The edge between two vertices, by its number; `None` where there is none of two triangles.
+    #[must_use]
+    pub fn between(&self, from: u32, to: u32) -> Option<usize> {
+        let [a, b] = [from.min(to), from.max(to)];
+        let &[start, end] = self.starts.get(a as usize..)?.first_chunk::<2>()?;
+        let found = self.b[start as usize..end as usize].binary_search(&b).ok()?;
+        Some(start as usize + found)
+    }
 }
 
 /// All other edges, in compressed rows.
@@ -190,6 +203,7 @@ impl Topology {
         }
 
         self.others.starts.push(0);
+        self.pairs.starts.push(0);
         for (a, bucket) in (0u32..).zip(starts.array_windows()).map(|(a, &[start, end])| (a, start as usize..end as usize)) {
             let bucket = &mut sorted[bucket];
             bucket.sort_unstable();
@@ -217,6 +231,7 @@ impl Topology {
                     }
                 }
             }
+            self.pairs.starts.push(self.pairs.a.len() as u32);
         }
     }
 

@@ -33,7 +33,8 @@ use glam::{DVec3, Vec3, Vec4};
 use serde::Serialize;
 
 use super::flaw::Flaw;
-use super::silhouette::{Facing, Planes, polygon_edges, silhouette};
+use super::kept::Silhouette;
+use super::silhouette::{Facing, Planes, polygon_edges};
 use super::{Aabb, Topology};
 
 /// A mesh in one pose, as its volumes see it.
@@ -139,25 +140,24 @@ impl VolumeIndex for u32 {
 }
 
 /// Memory that volumes are built in, kept from one to the next.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 pub struct VolumeScratch {
-    facing: Facing,
-    edges: Vec<[u32; 2]>,
+    seen: Silhouette,
+    polygons: Vec<[u32; 2]>,
     turned: Vec<[u32; 2]>,
 }
 
 impl VolumeScratch {
-    /// Who faced the light in the last volume.
+    /// Who faced the light in the last volume that was given no silhouette.
     #[must_use]
     pub fn facing(&self) -> &Facing {
-        &self.facing
+        self.seen.facing()
     }
 
-    /// The silhouette of the last volume that had sides or a dark cap; all edges of its polygons, where
-    /// each had a volume of its own, but for those that cancel one of these.
+    /// The silhouette of the same.
     #[must_use]
     pub fn silhouette(&self) -> &[[u32; 2]] {
-        &self.edges
+        self.seen.edges()
     }
 
     /// Appends the volume that `caster` and `light` (object space: a point with w = 1, the
@@ -171,6 +171,18 @@ impl VolumeScratch {
         indices: &mut Vec<I>,
     ) -> VolumeIndices {
         self.append_with(caster, light, parts, false, indices)
+    }
+
+    /// The same of a caster whose silhouette is known.
+    pub fn append_seen<I: VolumeIndex>(
+        &mut self,
+        seen: &Silhouette,
+        caster: Caster,
+        light: Vec4,
+        parts: VolumeParts,
+        indices: &mut Vec<I>,
+    ) -> VolumeIndices {
+        self.append_from(seen, caster, light, (parts, false), indices)
     }
 
     /// The same, built wrongly in the way that `flaw` says.
@@ -198,19 +210,35 @@ impl VolumeScratch {
         always_fan: bool,
         indices: &mut Vec<I>,
     ) -> VolumeIndices {
-        let Caster { topology, welded, planes, .. } = caster;
-        self.facing.decide(topology, planes, welded, light);
+        let mut seen = std::mem::take(&mut self.seen);
+        seen.find(caster, light);
+        let ranges = self.append_from(&seen, caster, light, (parts, always_fan), indices);
+        self.seen = seen;
+        ranges
+    }
+
+    fn append_from<I: VolumeIndex>(
+        &mut self,
+        seen: &Silhouette,
+        caster: Caster,
+        light: Vec4,
+        (parts, always_fan): (VolumeParts, bool),
+        indices: &mut Vec<I>,
+    ) -> VolumeIndices {
+        let Caster { topology, welded, .. } = caster;
         let to_one_point = light.w == 0.0 && !parts.finite;
         let dark_cap = parts.dark_cap && !to_one_point;
-        if parts.sides || dark_cap {
-            match parts.outline {
-                Outline::Silhouette => {
-                    silhouette(topology, &self.facing, &mut self.edges);
-                    self.turned.clear();
+        self.turned.clear();
+        let edges = match parts.outline {
+            Outline::Silhouette => seen.edges(),
+            Outline::Polygons => {
+                if parts.sides || dark_cap {
+                    polygon_edges(topology, seen.facing(), &mut self.polygons, &mut self.turned);
                 }
-                Outline::Polygons => polygon_edges(topology, &self.facing, &mut self.edges, &mut self.turned),
+                &self.polygons
             }
-        }
+        };
+        let counted = |contribution| counted(topology, seen.facing(), contribution);
         let extruded = |vertex: u32| vertex + topology.weld().len() as u32;
 
         let mut ranges = VolumeIndices::default();
@@ -221,7 +249,7 @@ impl VolumeScratch {
             range
         };
         if parts.sides {
-            for (edges, range) in [(&self.edges, &mut ranges.sides), (&self.turned, &mut ranges.sides_turned)] {
+            for (edges, range) in [(edges, &mut ranges.sides), (self.turned.as_slice(), &mut ranges.sides_turned)] {
                 if to_one_point {
                     indices.extend(edges.iter().flat_map(|&[a, b]| [a, extruded(a), b]).map(I::of));
                 } else {
@@ -232,35 +260,35 @@ impl VolumeScratch {
             }
         }
         if parts.light_cap {
-            indices.extend(self.counted(topology, 1).flatten().map(I::of));
+            indices.extend(counted(1).flatten().map(I::of));
             ranges.light_cap_kept = since(indices);
-            indices.extend(self.counted(topology, -1).flatten().map(I::of));
+            indices.extend(counted(-1).flatten().map(I::of));
             ranges.light_cap_turned = since(indices);
         }
         if dark_cap {
-            match self.edges.first() {
+            match edges.first() {
                 Some(&[pivot, _])
                     if always_fan
                         || parts.outline == Outline::Silhouette
-                            && within_half_space(welded, caster.bounds, light.truncate(), &self.edges) =>
+                            && within_half_space(welded, caster.bounds, light.truncate(), edges) =>
                 {
-                    let apart = self.edges.iter().filter(|edge| !edge.contains(&pivot));
+                    let apart = edges.iter().filter(|edge| !edge.contains(&pivot));
                     indices.extend(apart.flat_map(|&[a, b]| [pivot, b, a]).map(extruded).map(I::of));
                 }
                 _ => {
-                    indices.extend(self.counted(topology, 1).flat_map(|[a, b, c]| [c, b, a]).map(extruded).map(I::of));
-                    indices.extend(self.counted(topology, -1).flatten().map(extruded).map(I::of));
+                    indices.extend(counted(1).flat_map(|[a, b, c]| [c, b, a]).map(extruded).map(I::of));
+                    indices.extend(counted(-1).flatten().map(extruded).map(I::of));
                 }
             }
             ranges.dark_cap = since(indices);
         }
         ranges
     }
+}
 
-    fn counted(&self, topology: &Topology, contribution: i8) -> impl Iterator<Item = [u32; 3]> {
-        let counted = topology.triangles().iter().zip(self.facing.contributions());
-        counted.filter(move |(_, counts)| **counts == contribution).map(|(triangle, _)| *triangle)
-    }
+fn counted<'a>(topology: &'a Topology, facing: &'a Facing, contribution: i8) -> impl Iterator<Item = [u32; 3]> + use<'a> {
+    let counted = topology.triangles().iter().zip(facing.contributions());
+    counted.filter(move |(_, counts)| **counts == contribution).map(|(triangle, _)| *triangle)
 }
 
 /// Every direction from the light to a vertex lies strictly within one half-space, with a margin

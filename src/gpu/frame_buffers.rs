@@ -7,6 +7,7 @@ use glam::{DAffine3, DMat3, DMat4, DVec4, Mat4, Vec3, Vec4};
 
 use super::context::{Context, GpuError};
 use super::cutouts::{CutoutScratch, thrown};
+use super::kept::{Kept, Shape};
 use super::merged::Merged;
 use super::portions::{self, Portions};
 use super::scene_buffers::SceneBuffers;
@@ -14,9 +15,10 @@ use super::slides::Slides;
 use super::types::{Draw, Frame, Light, Object, Volume};
 use crate::frame::{DrawSet, FramePlan, Method, Part, Projection, View, VolumePart, VolumePlan, Window};
 use crate::geometry::ending::NEVER_ENDS;
-use crate::geometry::light_in_object;
+use crate::geometry::kept::Pair;
 use crate::geometry::planar_shadow::shadow_matrix;
 use crate::geometry::volume::{Caster, Outline, VolumeIndex as _, VolumeIndices, VolumeParts, VolumeScratch};
+use crate::geometry::{Posed, light_in_object};
 use crate::scene::{LightKind, Pose, PosedLight, Scene};
 use crate::settings::Accumulation;
 
@@ -49,6 +51,8 @@ pub struct FrameBuffers {
     pub enclosures: Vec<(usize, std::ops::Range<u32>)>,
     /// Volumes of small casters, once more.
     pub merged: Merged,
+    /// Whether all these are the last frame's.
+    kept: Kept,
     bind_group: Option<wgpu::BindGroup>,
     scratch: Scratch,
 }
@@ -130,6 +134,7 @@ impl Default for FrameBuffers {
             enclosure_vertices: Growing::new("solids about lights", wgpu::BufferUsages::VERTEX),
             enclosures: Vec::new(),
             merged: Merged::default(),
+            kept: Kept::default(),
             bind_group: None,
             scratch: Scratch::default(),
         }
@@ -146,6 +151,7 @@ impl FrameBuffers {
     /// Another scene was set: what was made for the one before is none of its business.
     pub fn forget_scene(&mut self) {
         self.slides.forget();
+        self.kept.forget();
         self.bind_group = None;
     }
 
@@ -163,7 +169,6 @@ impl FrameBuffers {
         pose: &Pose,
     ) -> Result<(), GpuError> {
         self.build_volumes(buffers, plan, scene, pose);
-        self.merge_volumes(buffers, plan, scene);
         let longest = (self.scratch.indices.len() * 4).max(self.scratch.short_indices.len() * 2);
         let (bytes, largest) = (longest as u64, context.device.limits().max_buffer_size);
         if bytes > largest {
@@ -197,15 +202,18 @@ impl FrameBuffers {
         grown |= self.lights.write(context, cast_slice(&scratch.lights), size_of::<Light>());
         grown |= self.volumes.write(context, cast_slice(&scratch.volumes), size_of::<Volume>());
         grown |= self.draws.write(context, &scratch.draws, STRIDE as usize);
-        self.merged.write(context);
-        self.indices.write(context, cast_slice(&scratch.indices), 4);
-        self.cutout_vertices.write(context, cast_slice(&scratch.cutouts.vertices), 16);
-        self.enclosure_vertices.write(context, cast_slice(&scratch.enclosures), 16);
-        // Copies come in fours of bytes; what is one index too long is never drawn.
-        if scratch.short_indices.len() % 2 == 1 {
-            scratch.short_indices.push(0);
+        if !self.kept.is_same() {
+            self.merged.write(context);
+            self.indices.write(context, cast_slice(&scratch.indices), 4);
+            self.cutout_vertices.write(context, cast_slice(&scratch.cutouts.vertices), 16);
+            // Copies come in fours of bytes; what is one index too long is never drawn.
+            if scratch.short_indices.len() % 2 == 1 {
+                scratch.short_indices.push(0);
+            }
+            self.short_indices.write(context, cast_slice(&scratch.short_indices), 4);
+            self.kept.written();
         }
-        self.short_indices.write(context, cast_slice(&scratch.short_indices), 4);
+        self.enclosure_vertices.write(context, cast_slice(&scratch.enclosures), 16);
         if grown || self.bind_group.is_none() {
             self.bind_group = self.make_bind_group(context, layout);
         }
@@ -254,18 +262,12 @@ impl FrameBuffers {
                 }
             }
         }
-        scratch.indices.clear();
-        scratch.short_indices.clear();
         scratch.volumes.clear();
-        scratch.cutouts.vertices.clear();
-        scratch.portions.clear();
         scratch.reflected.clear();
         scratch.reflected_numbers.clear();
-        self.volume_indices.clear();
-        self.first_vertices.clear();
         let instances: Vec<_> = scene.instances().collect();
-        for (number, (volume, wanted)) in plan.volumes.iter().zip(&scratch.parts).enumerate() {
-            let (node_index, node, mesh) = instances[volume.instance];
+        for volume in &plan.volumes {
+            let (node_index, ..) = instances[volume.instance];
             let world_from_object = volume.placed(&pose.world_from_object[node_index]);
             let light = light_in_object(&world_from_object, &pose.lights[volume.light]).as_vec4();
             // Instances of all views come first, and then what is reflected.
@@ -297,6 +299,49 @@ impl FrameBuffers {
                 extrusion: volume.extrusion.unwrap_or(0.0) as f32,
                 _pad: 0,
             });
+        }
+        self.describe_volumes(plan, scene, pose, &same_shape);
+        if !self.kept.is_same() {
+            self.build_indices(plan, scene, pose, &same_shape);
+            self.merge_volumes(buffers, plan, scene);
+        }
+    }
+
+    /// What the volumes' indices will depend on.
+    fn describe_volumes(&mut self, plan: &FramePlan, scene: &Scene, pose: &Pose, same_shape: &[usize]) {
+        let Self { scratch, kept, .. } = self;
+        kept.start();
+        for (number, (_, draw)) in plan.draws().enumerate() {
+            if let DrawSet::Volumes(parts) = &draw.set {
+                kept.draw(number, parts);
+            }
+        }
+        let instances: Vec<_> = scene.instances().collect();
+        for ((number, volume), described) in plan.volumes.iter().enumerate().zip(&scratch.volumes) {
+            let (node, _, mesh) = instances[volume.instance];
+            kept.volume(Shape {
+                instance: volume.instance,
+                posed: pose.posed(mesh, node).planes.build_number(),
+                light: described.light_in_object.map(f32::to_bits),
+                parts: scratch.parts[number],
+                first: same_shape[number],
+                plain: is_plain(volume) && volume.piece.is_whole(),
+            });
+        }
+    }
+
+    fn build_indices(&mut self, plan: &FramePlan, scene: &Scene, pose: &Pose, same_shape: &[usize]) {
+        let scratch = &mut self.scratch;
+        scratch.indices.clear();
+        scratch.short_indices.clear();
+        scratch.cutouts.vertices.clear();
+        scratch.portions.clear();
+        self.volume_indices.clear();
+        self.first_vertices.clear();
+        let instances: Vec<_> = scene.instances().collect();
+        for (number, (volume, wanted)) in plan.volumes.iter().zip(&scratch.parts).enumerate() {
+            let (node_index, _, mesh) = instances[volume.instance];
+            let light = Vec4::from_array(scratch.volumes[number].light_in_object);
             let first = same_shape[number];
             if first != number {
                 self.volume_indices.push(self.volume_indices[first].clone());
@@ -308,23 +353,22 @@ impl FrameBuffers {
                 self.first_vertices.push(None);
                 continue;
             };
-            let vertices = buffers.vertices(volume.instance, node.mesh.unwrap_or(0));
-            let caster = Caster {
-                topology: &mesh.topology,
-                welded: &vertices.welded,
-                planes: &vertices.planes,
-                bounds: &pose.bounds(scene, node_index),
-            };
+            let Posed { welded, planes } = pose.posed(mesh, node_index);
+            let caster = Caster { topology: &mesh.topology, welded, planes, bounds: &pose.bounds(scene, node_index) };
             const SHORT: wgpu::IndexFormat = wgpu::IndexFormat::Uint16;
             const LONG: wgpu::IndexFormat = wgpu::IndexFormat::Uint32;
             if !volume.piece.is_whole() {
-                let portion = scratch.portions.of(volume, (mesh, &pose.world_from_object[node_index]), &vertices.welded);
+                let portion = scratch.portions.of(volume, (mesh, &pose.world_from_object[node_index]), welded);
                 let first = scratch.cutouts.append_portion(portion);
                 self.volume_indices.push((scratch.volume.append(portion.caster(), light, parts, &mut scratch.indices), LONG));
                 self.first_vertices.push(Some(first));
                 continue;
             }
             let cut = volume.projection.filter(|projection| projection.cut);
+            let seen = || {
+                let pair = Pair { instance: volume.instance, light: volume.light, reflected: volume.reflected.is_some() };
+                scene.silhouettes.of(pair, caster, light)
+            };
             let (indices, format, first_vertex) = match (cut, &volume.cutout, volume.flaw) {
                 (Some(Projection { onto, .. }), ..) => {
                     let plane = in_object(onto.plane, &pose.world_from_object[node_index]);
@@ -339,10 +383,13 @@ impl FrameBuffers {
                 (None, None, Some(flaw)) => {
                     (scratch.volume.append_flawed(flaw, caster, light, parts, &mut scratch.indices), LONG, None)
                 }
-                (None, None, None) if vertices.welded.len() * 2 <= u16::LIMIT => {
-                    (scratch.volume.append(caster, light, parts, &mut scratch.short_indices), SHORT, None)
+                (None, None, None) if welded.len() * 2 <= u16::LIMIT => {
+                    let indices = scratch.volume.append_seen(&seen(), caster, light, parts, &mut scratch.short_indices);
+                    (indices, SHORT, None)
                 }
-                (None, None, None) => (scratch.volume.append(caster, light, parts, &mut scratch.indices), LONG, None),
+                (None, None, None) => {
+                    (scratch.volume.append_seen(&seen(), caster, light, parts, &mut scratch.indices), LONG, None)
+                }
             };
             self.volume_indices.push((indices, format));
             self.first_vertices.push(first_vertex);
@@ -439,13 +486,18 @@ fn append(bytes: &mut Vec<u8>, uniform: &[u8]) {
 fn same_shape(plan: &FramePlan) -> Vec<usize> {
     let mut first = HashMap::new();
     let shape = |(number, volume): (usize, &VolumePlan)| {
-        let whole = volume.cutout.is_none() && volume.projection.is_none_or(|projection| !projection.cut);
-        let plain = whole && volume.flaw.is_none() && volume.method != Method::Dropped;
+        let plain = is_plain(volume) && volume.method != Method::Dropped;
         let of = (volume.instance, volume.light, volume.reflected.is_some(), portions::key(&volume.piece));
         let key = (of, volume.outline == Outline::Polygons, volume.extrusion.is_some());
         if plain { *first.entry(key).or_insert(number) } else { number }
     };
     plan.volumes.iter().enumerate().map(shape).collect()
+}
+
+/// It is thrown from its caster's silhouette, as that is; or from a part of the caster.
+fn is_plain(volume: &VolumePlan) -> bool {
+    let whole = volume.cutout.is_none() && volume.projection.is_none_or(|projection| !projection.cut);
+    whole && volume.flaw.is_none()
 }
 
 /// Where a part of a volume stands among the indices.

@@ -7,6 +7,7 @@ pub mod context;
 mod cutouts;
 mod encode;
 mod frame_buffers;
+mod kept;
 mod labels;
 mod lines;
 mod merged;

@@ -4,7 +4,6 @@ use super::context::{Context, GpuError};
 use super::texture::{self, Samplers};
 use super::types::{Attributes, Material};
 use crate::geometry::outward;
-use crate::geometry::silhouette::Planes;
 use crate::scene::{AlphaMode, DeformedMesh, Mesh, Scene};
 use bytemuck::cast_slice;
 use glam::Vec3;
@@ -44,8 +43,6 @@ pub struct VertexBuffers {
     pub outward: Option<wgpu::Buffer>,
     /// Welded positions, as volumes are built from them.
     pub welded: Vec<Vec3>,
-    /// The planes of the welded triangles.
-    pub planes: Planes,
     /// Memory that positions are gathered in.
     scratch: Scratch,
 }
@@ -210,7 +207,6 @@ impl VertexBuffers {
             volume: buffer("volume vertices", welded * 32),
             outward: None,
             welded: Vec::new(),
-            planes: Planes::default(),
             scratch: Scratch::default(),
         };
         buffers.write(context, mesh, source);
@@ -229,7 +225,6 @@ impl VertexBuffers {
         }));
         self.welded.clear();
         self.welded.extend(mesh.topology.weld().vertex_of_welded.iter().map(|&vertex| positions[vertex as usize]));
-        self.planes.build(&mesh.topology, &self.welded);
         self.scratch.volume.clear();
         for w in [1.0, 0.0] {
             self.scratch.volume.extend(self.welded.iter().map(|position| position.extend(w).to_array()));

@@ -7,6 +7,8 @@
 //! Normals go through the cofactor matrix, which is the inverse transpose but for its length, exists
 //! where there is no inverse, and keeps to the side that the triangles' winding shows.
 
+use std::sync::OnceLock;
+
 use glam::{Affine3A, DAffine3, DMat3, Mat3A, Vec3, Vec3A};
 
 use super::mesh::{flat_normals, unit_normals};
@@ -87,5 +89,6 @@ fn finished(mesh: &Mesh, mut positions: Vec<Vec3>, mut normals: Vec<Vec3>) -> De
     }
     let mut sines = Vec::new();
     terminator::sines(&positions, &normals, &mesh.indices, &mut sines);
-    DeformedMesh { bounds: Aabb::from_points(positions.iter().copied()), positions, normals, terminator: sines }
+    let bounds = Aabb::from_points(positions.iter().copied());
+    DeformedMesh { bounds, positions, normals, terminator: sines, posed: OnceLock::new() }
 }

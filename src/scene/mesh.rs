@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use glam::{Vec2, Vec3};
 use thiserror::Error;
 
-use crate::geometry::{Aabb, Topology, Weld, terminator, topology};
+use crate::geometry::{Aabb, Posed, Topology, Weld, terminator, topology};
 
 /// Triangles in object space. All vertex arrays have one entry a vertex.
 #[derive(Debug, Clone, Default)]
@@ -37,6 +37,8 @@ pub struct Mesh {
     pub morph_weights: Vec<f32>,
     /// Edges of the welded triangles: what silhouettes and volumes are made from.
     pub topology: Topology,
+    /// As it is at rest.
+    pub rest: Posed,
     /// Sine of the largest angle between a vertex's normal and its triangles' normals: see
     /// [`crate::geometry::terminator`].
     pub terminator: Vec<f32>,
@@ -181,6 +183,7 @@ impl Mesh {
         Ok(Self {
             name: parts.name,
             bounds: Aabb::from_points(parts.positions.iter().copied()),
+            rest: Posed::new(&topology, &parts.positions),
             positions: parts.positions,
             normals,
             flat,

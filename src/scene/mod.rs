@@ -36,6 +36,8 @@ pub use solid::{Combination, Operands, Solid, Unfit};
 
 use glam::{DAffine3, DQuat, DVec3, Vec3, Vec4};
 
+use crate::geometry::Silhouettes;
+
 /// Everything of one scene. Indices (`usize`) point into the vectors of this struct.
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
@@ -73,6 +75,8 @@ pub struct Scene {
     pub exposure: f32,
     /// What the importer had to leave out or replace, one sentence each, naming the part.
     pub warnings: Vec<String>,
+    /// A memory of what lights see of its casters.
+    pub silhouettes: Silhouettes,
 }
 
 /// One place in the hierarchy.

@@ -5,11 +5,12 @@
 //! last. A scene shared between two times, or two users, is never written to.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use glam::{DAffine3, DQuat, DVec3, DVec4, Vec3};
 
-use super::{AnimationChoice, Extent, LightKind, OffMirror, Property, Scene, Slide, Transform, deform};
-use crate::geometry::Aabb;
+use super::{AnimationChoice, Extent, LightKind, Mesh, OffMirror, Property, Scene, Slide, Transform, deform};
+use crate::geometry::{Aabb, Posed};
 use crate::settings::{LightEdit, SlideChoice};
 
 /// Everything about a scene that depends on time.
@@ -41,6 +42,8 @@ pub struct DeformedMesh {
     pub terminator: Vec<f32>,
     /// Of `positions`.
     pub bounds: Aabb,
+    /// Of `positions`, once asked for ([`Pose::posed`]).
+    pub posed: OnceLock<Posed>,
 }
 
 /// A light in world space: a point of one, where the light has a size and was expanded
@@ -210,6 +213,15 @@ impl Pose {
         match self.deformed.get(node) {
             Some(Some(deformed)) => &deformed.positions,
             _ => scene.nodes.get(node).and_then(|node| node.mesh).map_or(&[], |mesh| &scene.meshes[mesh].positions),
+        }
+    }
+
+    /// The mesh that `node` shows, as its silhouettes see it.
+    #[must_use]
+    pub fn posed<'a>(&'a self, mesh: &'a Mesh, node: usize) -> &'a Posed {
+        match self.deformed.get(node) {
+            Some(Some(deformed)) => deformed.posed.get_or_init(|| Posed::new(&mesh.topology, &deformed.positions)),
+            _ => &mesh.rest,
         }
     }
 

@@ -13,12 +13,11 @@
 //!
 //! [`StencilState::collapse`]: crate::frame::stencil::StencilState::collapse
 
-use glam::Vec3;
-
 use super::counting::Ask;
 use super::{Caster, Row};
+use crate::geometry::kept::Pair;
 use crate::geometry::overlap::{Cone, Heap, OverlapScratch};
-use crate::geometry::{self, Planes};
+use crate::geometry::{self, Posed};
 use crate::settings::{Overflow, Technique};
 
 /// What every note on a count that could overflow holds.
@@ -61,10 +60,10 @@ pub(super) fn decide(row: &Row, casters: &[&Caster<'_>], ask: &Ask) -> Decision 
     if sum(&bounds) <= largest.into() {
         return plain;
     }
-    let mut scratch = Scratch::default();
+    let mut scratch = OverlapScratch::default();
     for (bound, caster) in bounds.iter_mut().zip(casters) {
         if *bound > 1 {
-            *bound = scratch.bound(caster, largest);
+            *bound = winding_bound(&mut scratch, caster, ask.light, largest);
         }
     }
     if sum(&bounds) <= largest.into() {
@@ -83,7 +82,7 @@ pub(super) fn decide(row: &Row, casters: &[&Caster<'_>], ask: &Ask) -> Decision 
         // Worth more time.
         for (bound, caster) in bounds.iter_mut().zip(casters) {
             if *bound > 1 {
-                *bound = scratch.bound(caster, 1);
+                *bound = winding_bound(&mut scratch, caster, ask.light, 1);
             }
         }
         most = together(&bounds);
@@ -155,22 +154,12 @@ fn cone(caster: &Caster<'_>, everywhere: bool) -> Cone {
     Cone::about(&bounds, light)
 }
 
-/// Memory that bounds are found in.
-#[derive(Default)]
-struct Scratch {
-    welded: Vec<Vec3>,
-    planes: Planes,
-    overlap: OverlapScratch,
-}
-
-impl Scratch {
-    fn bound(&mut self, caster: &Caster<'_>, enough: u32) -> u32 {
-        let topology = &caster.mesh.topology;
-        topology.weld().gather(caster.pose.positions(caster.scene, caster.node_index), &mut self.welded);
-        self.planes.build(topology, &self.welded);
-        let bounds = caster.pose.bounds(caster.scene, caster.node_index);
-        let posed = geometry::Caster { topology, welded: &self.welded, planes: &self.planes, bounds: &bounds };
-        let light = caster.light_in_object().as_vec4();
-        self.overlap.winding_bound(posed, light, enough)
-    }
+/// How often at most one caster's volume winds around a point: `enough` is as good as any less.
+fn winding_bound(scratch: &mut OverlapScratch, caster: &Caster<'_>, light: usize, enough: u32) -> u32 {
+    let Posed { welded, planes } = caster.pose.posed(caster.mesh, caster.node_index);
+    let bounds = caster.pose.bounds(caster.scene, caster.node_index);
+    let posed = geometry::Caster { topology: &caster.mesh.topology, welded, planes, bounds: &bounds };
+    let pair = Pair { instance: caster.instance, light, reflected: caster.reflected.is_some() };
+    let light = caster.light_in_object().as_vec4();
+    scratch.winding_bound(posed, light, &caster.scene.silhouettes.of(pair, posed, light), enough)
 }
