@@ -11,34 +11,10 @@ use obscura::geometry::{
     Aabb, Caster, Facing, Planes, Silhouette, Topology, VolumeParts, VolumeScratch, Weld, holding_count, silhouette::silhouette,
     terminator,
 };
-
-/// Positions and indices of a trefoil's tube, closed and outward, of `2 * rings * sides` triangles.
-fn torus_knot(rings: u32, sides: u32) -> (Vec<Vec3>, Vec<u32>) {
-    let curve = |turn: f32| {
-        let out = 2.0 + (3.0 * turn).cos();
-        Vec3::new(out * (2.0 * turn).cos(), (3.0 * turn).sin(), out * (2.0 * turn).sin())
-    };
-    let (mut positions, mut indices) = (Vec::new(), Vec::new());
-    let turn = |step: u32, steps: u32| step as f32 / steps as f32 * std::f32::consts::TAU;
-    for ring in 0..rings {
-        let at = curve(turn(ring, rings));
-        let along = (curve(turn(ring, rings) + 1e-3) - at).normalize();
-        let across = along.cross(at).normalize();
-        let up = across.cross(along);
-        for side in 0..sides {
-            let (sin, cos) = turn(side, sides).sin_cos();
-            positions.push(at + (across * cos + up * sin) * 0.4);
-            let vertex = |ring: u32, side: u32| ring % rings * sides + side % sides;
-            let (a, b) = (vertex(ring, side), vertex(ring + 1, side));
-            let (c, d) = (vertex(ring + 1, side + 1), vertex(ring, side + 1));
-            indices.extend([a, c, d, a, b, c]);
-        }
-    }
-    (positions, indices)
-}
+use obscura::scene::generated::knot;
 
 fn geometry(criterion: &mut Criterion) {
-    let (positions, indices) = torus_knot(1000, 100);
+    let (positions, indices) = knot(1000, 100);
     let build = || Topology::build(&indices, &positions, Weld::new(&positions, |_, _| std::cmp::Ordering::Equal), |_| true);
     let topology = build();
     assert!(topology.report().is_solid() && topology.report().triangles == 200_000, "{:?}", topology.report());
@@ -102,7 +78,7 @@ fn geometry(criterion: &mut Criterion) {
 
 /// K calls it "not a cheap operation": a knot's silhouette, projected and reduced to its outline.
 fn flattening(criterion: &mut Criterion) {
-    let (positions, indices) = torus_knot(250, 12);
+    let (positions, indices) = knot(250, 12);
     let topology = Topology::build(&indices, &positions, Weld::new(&positions, |_, _| std::cmp::Ordering::Equal), |_| true);
     assert_eq!(topology.report().triangles, 6_000);
     let (mut welded, mut edges, mut facing) = (Vec::new(), Vec::new(), Facing::default());

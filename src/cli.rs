@@ -26,7 +26,7 @@ mod planar;
 mod playground;
 mod verify;
 
-pub use bench::{BenchRequest, DEFAULT_FRAMES};
+pub use bench::{BenchRequest, DEFAULT_FRAMES, Sweep, SweepRequest};
 pub use command_line::render_command;
 pub use input::{InputError, MAX_COORDINATE, MAX_EXPOSURE, check, check_against};
 pub use verify::{RANDOM_SIZE, VerifyRequest};
@@ -69,6 +69,13 @@ pub enum Command {
     Bench {
         /// What is drawn, and how often.
         request: BenchRequest,
+        /// Prints what was measured as JSON.
+        json: bool,
+    },
+    /// Measures how the cost of frames grows.
+    Sweep {
+        /// With what, and where to write it.
+        request: Box<SweepRequest>,
         /// Prints what was measured as JSON.
         json: bool,
     },
@@ -198,7 +205,10 @@ impl Parsed {
             }
             Some(Subcommands::Bench(bench)) => {
                 let json = bench.json;
-                Command::Bench { request: bench.request()?, json }
+                match bench.sweep_request()? {
+                    Some(request) => Command::Sweep { request: Box::new(request), json },
+                    None => Command::Bench { request: bench.request()?, json },
+                }
             }
             Some(Subcommands::Playground(playground)) => playground.request()?,
             Some(Subcommands::List { json }) => Command::List { json },
@@ -284,6 +294,10 @@ enum Subcommands {
     /// The lights go round in small circles, so that nothing can be kept from one frame to the next. Each frame is planned,
     /// drawn and waited for; some are drawn before any is measured. Printed are medians, with the 10th and the
     /// 90th percentile. `--technique` takes several, separated by commas, or `all`.
+    ///
+    /// With `--sweep` one thing is doubled again and again, and what that does to a frame is written into a table
+    /// (CSV) and a plot (PNG): how many casters, triangles or lights a generated scene has, how often mirrors of a
+    /// scene are followed (barbershop), or how many pixels it is drawn in (cubes).
     Bench(Box<bench::BenchArguments>),
     /// Draws shapes into the stencil, one after another, every state free to choose
     ///

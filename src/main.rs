@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use obscura::cli::{self, Command, WindowRequest};
-use obscura::headless::{self, bench::bench, catalog::Catalog, render::render, tour, verify::verify};
+use obscura::headless::{self, bench::bench, catalog::Catalog, render::render, sweep::sweep, tour, verify::verify};
 use obscura::scene::doctor;
 use obscura::techniques::playground;
 use serde::Serialize;
@@ -66,6 +66,7 @@ fn run(command: Command) -> Result<(), Failure> {
             }
         }
         Command::Bench { request, json } => print_as(&bench(&request)?, json),
+        Command::Sweep { request, json } => print_as(&sweep(&request)?, json),
         Command::Playground { settings, out, calls } => {
             if let Some(out) = out {
                 render(&settings, &out, false)?;

@@ -541,6 +541,58 @@ fn bench_measures_each_scene_by_each_technique() {
 }
 
 #[test]
+fn bench_sweeps_write_a_table_and_a_plot() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let small = ["--frames", "1", "--size", "64x36"];
+    for (sweep, columns) in [
+        ("casters", "1,2,4"),
+        ("triangles", "1024,2048,4096"),
+        ("lights", "1,2,4"),
+        ("bounces", "1,2,4"),
+        ("pixels", "2304,4641,9216"),
+    ] {
+        let arguments = ["bench", "--sweep", sweep, "--out", "new/folder", "--steps", "3", "--technique", "none,auto"];
+        let text = good(here, &[&arguments[..], &small].concat());
+        assert!(text.contains("fragments a pixel") && text.lines().count() == 3 + 6, "{text}");
+        let file = |ending: &str| here.join("new/folder").join(format!("{sweep}.{ending}"));
+        let csv = std::fs::read_to_string(file("csv")).unwrap();
+        let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let head = lines.next().unwrap();
+        assert!(head.starts_with(&[sweep, "technique", "width", "height", "frames", "frame_ms"]), "{head:?}");
+        let lines: Vec<_> = lines.collect();
+        let of = |technique: &str| lines.iter().filter(|line| line[1] == technique).map(|line| line[0]).collect::<Vec<_>>();
+        assert_eq!([of("none").join(","), of("auto").join(",")], [columns, columns], "{csv}");
+        assert!(lines.iter().all(|line| line.len() == head.len()), "{csv}");
+        image::open(file("png")).unwrap();
+        let command = read_command(&file("png")).unwrap().unwrap();
+        assert!(command.starts_with("obscura bench ") && command.contains(&format!("--sweep {sweep}")), "{command}");
+        if sweep == "lights" {
+            // It writes to where it is run.
+            let words = shlex::split(&command).unwrap();
+            good(here, &words.iter().skip(1).map(String::as_str).collect::<Vec<_>>());
+            let again = std::fs::read_to_string(here.join("lights.csv")).unwrap();
+            assert_eq!(again.lines().count(), csv.lines().count());
+        }
+    }
+    std::fs::write(here.join("taken"), "").unwrap();
+    let sweep = |words: &[&'static str]| [&["bench", "--sweep"][..], words, &small].concat();
+    for words in [
+        &["moons", "--out", "x"][..],
+        &["casters", "cubes", "--out", "x"],
+        &["bounces", "cubes", "gallery", "--out", "x"],
+        &["pixels", "no-such-scene", "--out", "x"],
+        &["lights", "--out", "taken"],
+        &["lights", "--out", "x", "--steps", "99"],
+    ] {
+        bad(here, &sweep(words));
+    }
+    bad(here, &["bench", "--sweep", "pixels", "--out", "x", "--size", "8000x8000"]);
+    assert_eq!(run(here, &sweep(&["lights"])).status.code(), Some(2), "where to?");
+    assert_eq!(names(here), ["lights.csv", "lights.png", "new", "taken"]);
+}
+
+#[test]
 fn verify_says_what_is_wrong_and_ends_with_it() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();

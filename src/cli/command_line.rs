@@ -19,8 +19,19 @@ const OUT: &str = "obscura.png";
 /// Paths that are not UTF-8 cannot be written in a line of text and come out approximately.
 #[must_use]
 pub fn render_command(settings: &Settings) -> String {
+    let mut line = Line::default();
+    line.word("obscura");
+    line.word("render");
+    line.scene(&settings.scene);
+    line.option("--out", OUT);
+    picture_options(settings, &mut line);
+    line.finish()
+}
+
+/// The options that give `settings` again, but for the scene.
+pub(super) fn picture_options(settings: &Settings, line: &mut Line) {
     let Settings {
-        scene,
+        scene: _,
         floor,
         technique,
         show,
@@ -51,17 +62,6 @@ pub fn render_command(settings: &Settings) -> String {
         planar,
     } = settings;
     let default = Settings::default();
-    let mut line = Line::default();
-    line.word("obscura");
-    line.word("render");
-    line.word(&match scene {
-        SceneChoice::Stock(name) => Cow::Borrowed(name.as_str()),
-        SceneChoice::File(path) => match path.to_string_lossy() {
-            path if needs_dot(&path) => format!("./{path}").into(),
-            path => path,
-        },
-    });
-    line.option("--out", OUT);
     if *technique != default.technique {
         line.option("--technique", technique.name());
     }
@@ -115,24 +115,23 @@ pub fn render_command(settings: &Settings) -> String {
     for (light, edit) in lights {
         line.option("--light-edit", &light_edit::format(*light, edit));
     }
-    lighting_options::write(lighting, &mut line);
-    counting_options::write(counting, &mut line);
-    culling_options::write(culling, &mut line);
-    complexity_options::write(*complexity, &mut line);
-    decal_options::write(*decals, &mut line);
-    dissolve_options::write(dissolve, &mut line);
-    playground_options::write(playground, &mut line);
-    mirror_options::write(mirrors, &mut line);
-    halo_options::write(halos, &mut line);
-    csg_options::write(csg, &mut line);
-    planar_options::write(planar, &mut line);
+    lighting_options::write(lighting, line);
+    counting_options::write(counting, line);
+    culling_options::write(culling, line);
+    complexity_options::write(*complexity, line);
+    decal_options::write(*decals, line);
+    dissolve_options::write(dissolve, line);
+    playground_options::write(playground, line);
+    mirror_options::write(mirrors, line);
+    halo_options::write(halos, line);
+    csg_options::write(csg, line);
+    planar_options::write(planar, line);
     if let Some(adapter) = adapter {
         line.option("--adapter", adapter);
     }
     if let Some(folder) = shaders {
         line.option("--shaders", &folder.to_string_lossy());
     }
-    line.text
 }
 
 /// Words of a command line, quoted.
@@ -142,6 +141,22 @@ pub(super) struct Line {
 }
 
 impl Line {
+    /// A scene's name; a file's where it would be taken for something else as `./name`.
+    pub fn scene(&mut self, scene: &SceneChoice) {
+        self.word(&match scene {
+            SceneChoice::Stock(name) => Cow::Borrowed(name.as_str()),
+            SceneChoice::File(path) => match path.to_string_lossy() {
+                path if needs_dot(&path) => format!("./{path}").into(),
+                path => path,
+            },
+        });
+    }
+
+    /// All of it.
+    pub fn finish(self) -> String {
+        self.text
+    }
+
     pub fn word(&mut self, word: &str) {
         // A NUL can stand neither in a path nor in a command line.
         let word = word.replace('\0', "");

@@ -35,6 +35,14 @@ pub enum InputError {
         /// The stock scenes.
         known: String,
     },
+    /// A scene, or several, where there is room for none, or for one.
+    #[error("the sweep over {sweep} {takes}")]
+    SweepScene {
+        /// Over what.
+        sweep: &'static str,
+        /// What it does with scenes.
+        takes: &'static str,
+    },
     /// A board of the playground that cannot be read or drawn.
     #[error("board {name}: {why}")]
     Board {

@@ -2,16 +2,18 @@
 //!
 //! - [`render`] draws one picture, [`tour`] all of them; [`save`](save_png) writes them whole or not at all;
 //! - [`verify`] holds what is drawn against exact rays, also on random views ([`wander`]);
-//! - [`bench`] measures frames, one by one;
+//! - [`bench`] measures frames, one by one, [`sweep`] how that grows, which [`plot`] draws;
 //! - [`json`] is what `render --json` prints, [`catalog`] what `list` prints.
 
 pub mod bench;
 pub mod catalog;
 pub mod figures;
 pub mod json;
+pub mod plot;
 pub mod render;
 mod report;
 mod save;
+pub mod sweep;
 pub mod tour;
 pub mod verify;
 pub mod wander;
@@ -51,6 +53,9 @@ pub enum HeadlessError {
     /// There is nothing to verify.
     #[error("{0} has no lights: there are no shadows to verify")]
     NoLights(String),
+    /// A plot cannot be drawn.
+    #[error("cannot draw the plot: {0}")]
+    Plot(String),
     /// The folder cannot be made.
     #[error("cannot make the folder {folder}: {error}", folder = .0.display(), error = .1)]
     Folder(PathBuf, #[source] std::io::Error),

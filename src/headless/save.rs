@@ -55,9 +55,17 @@ pub fn check_target(path: &Path) -> Result<(), SaveError> {
 pub fn save_png(path: &Path, image: &RgbaImage, command: &str) -> Result<(), SaveError> {
     check_target(path)?;
     let bytes = encode(image, command).map_err(|error| SaveError::Encode(path.into(), error))?;
+    save_bytes(path, &bytes)
+}
+
+/// Writes a file whole, to a temporary name beside `path`, which is then renamed.
+///
+/// # Errors
+/// Nothing is left behind then.
+pub fn save_bytes(path: &Path, bytes: &[u8]) -> Result<(), SaveError> {
     let io = |error| SaveError::Io(path.into(), error);
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".obscura-").suffix(".png");
+    builder.prefix(".obscura-");
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt as _;
@@ -65,7 +73,7 @@ pub fn save_png(path: &Path, image: &RgbaImage, command: &str) -> Result<(), Sav
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     let mut file = builder.tempfile_in(folder_of(path)).map_err(io)?;
-    file.write_all(&bytes).map_err(io)?;
+    file.write_all(bytes).map_err(io)?;
     file.persist(path).map_err(|error| io(error.error))?;
     Ok(())
 }

@@ -10,6 +10,7 @@ pub mod animation;
 pub mod area;
 mod deform;
 pub mod doctor;
+pub mod generated;
 pub mod gltf;
 mod halo;
 pub mod mesh;
