@@ -250,7 +250,11 @@ fn figures_named(names: &[String]) -> Result<Vec<&'static Figure>, InputError> {
         let known = figures::TABLE.iter().map(|figure| figure.name).collect::<Vec<_>>().join(", ");
         return Err(InputError::Unknown { kind: "figure", name: name.clone(), known });
     }
-    Ok(figures::TABLE.iter().filter(|figure| names.is_empty() || names.iter().any(|name| begins(figure, name))).collect())
+    Ok(figures::TABLE
+        .iter()
+        .copied()
+        .filter(|figure| names.is_empty() || names.iter().any(|name| begins(figure, name)))
+        .collect())
 }
 
 fn is_stock(name: &str) -> bool {

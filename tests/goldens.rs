@@ -167,7 +167,7 @@ fn every_operation_on_solids_looks_as_it_did() {
 fn every_figure_looks_as_it_did() {
     let mut stage = Stage::new();
     let mut faults = Vec::new();
-    for figure in figures::TABLE {
+    for figure in figures::TABLE.iter() {
         let settings = figure.settings(&Settings { size: SIZE, ..Settings::default() });
         let scene = open(&settings).unwrap();
         stage.set_scene(&scene);

@@ -7,7 +7,7 @@
 
 mod rows;
 
-pub use rows::TABLE;
+use std::sync::LazyLock;
 
 use crate::settings::{SceneChoice, Settings};
 
@@ -71,10 +71,13 @@ impl PartialEq for Figure {
     }
 }
 
+/// Every figure, paper by paper, in the paper's order.
+pub static TABLE: LazyLock<Vec<&'static Figure>> = LazyLock::new(|| rows::TABLES.into_iter().flatten().collect());
+
 /// The figure of that name.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Figure> {
-    TABLE.iter().find(|figure| figure.name == name)
+    TABLE.iter().copied().find(|figure| figure.name == name)
 }
 
 impl Figure {
@@ -116,7 +119,7 @@ mod tests {
             assert!(figure.name.starts_with(letter), "{}", figure.name);
             assert!(TABLE[..at].iter().all(|before| before.name != figure.name), "{}", figure.name);
             assert!(figure.seen.ends_with('.') && !figure.title.is_empty(), "{}", figure.name);
-            assert!(std::ptr::eq(find(figure.name).unwrap(), figure));
+            assert!(std::ptr::eq(find(figure.name).unwrap(), *figure));
         }
         let papers: Vec<_> = TABLE.iter().map(|figure| Paper::ALL.iter().position(|paper| *paper == figure.paper)).collect();
         assert!(papers.is_sorted(), "paper by paper");
