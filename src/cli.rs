@@ -15,6 +15,7 @@ mod counting;
 mod csg;
 mod culling;
 mod decals;
+mod diagram;
 mod dissolve;
 mod halo;
 mod input;

@@ -6,6 +6,7 @@
 
 mod casters;
 mod decals;
+mod diagrams;
 mod dissolve;
 mod halos;
 mod off_mirrors;
@@ -250,7 +251,7 @@ pub fn plan(
             frame.name(named, Camera { near: 0.0, ..above.camera }, Target::Output);
         }
         Show::Complexity => frame.draw_complexity(&groups),
-        Show::Rays => frame.draw_rays(),
+        Show::Rays => frame.draw_diagram(),
         Show::Final | Show::Volumes | Show::Wireframe => {
             let darkens = techniques::row(settings.technique).darkens;
             let mut rounds = if frame.is_planar() { Vec::new() } else { frame.rounds() };

@@ -105,7 +105,9 @@
 //! a point beyond the light no shadow is the clip volume itself; what lies behind a receiver is cut on the CPU, in double
 //! precision. `director/planar.rs` has the order of each mode, for the eye's view and those in mirrors alike.
 //!
-//! `--show cases`, `bounds`, `overflow` and the rest read what the plan decided; none decides by itself.
+//! `--show cases`, `bounds`, `overflow` and the rest read what the plan decided; none decides by itself. Diagrams
+//! ([`techniques::diagram`]) are worked out in double precision on the plane that the eye looks in: as many convex
+//! polygons hold a place there as volumes do.
 //!
 //! # Spaces and depth
 //!

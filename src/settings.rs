@@ -9,6 +9,7 @@ mod counting;
 mod csg;
 mod culling;
 mod decals;
+mod diagram;
 mod dissolve;
 mod halo;
 mod lighting;
@@ -21,6 +22,7 @@ pub use counting::{Counting, MAX_COUNT_BITS, Overflow};
 pub use csg::{Csg, Operation};
 pub use culling::{Culling, LightBounds};
 pub use decals::DecalMode;
+pub use diagram::Diagram;
 pub use dissolve::{Dissolve, Pattern};
 pub use halo::{Halos, MAX_HALO_WIDTH};
 pub use lighting::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
@@ -89,6 +91,8 @@ pub struct Settings {
     pub playground: Playground,
     /// Which fragments depth complexity counts.
     pub complexity: Complexity,
+    /// What is drawn into the scene from the side.
+    pub diagram: Diagram,
     /// Which surfaces are mirrors, and how what is seen in them is drawn.
     pub mirrors: Mirrors,
     /// What glows.
@@ -129,6 +133,7 @@ impl Default for Settings {
             dissolve: Dissolve::default(),
             playground: Playground::default(),
             complexity: Complexity::default(),
+            diagram: Diagram::default(),
             mirrors: Mirrors::default(),
             halos: Halos::default(),
             csg: Csg::default(),
@@ -317,7 +322,7 @@ pub enum Show {
     Birdseye,
     /// How often each pixel is drawn, in false colour, with a legend.
     Complexity,
-    /// From the side: rays of the eye, with the count along each.
+    /// From the side, cut where the eye looks: rays, volumes and counts, as [`Diagram`] says.
     Rays,
     /// Shapes drawn into the stencil one after another, in place of the scene.
     Playground,
@@ -420,7 +425,7 @@ impl Show {
                 "every surface in a colour of its own, another in each mirror: exact values, black where nothing is"
             }
             Self::Birdseye => "from above: the rooms that mirrors make, where they seem to stand, and what is seen of each",
-            Self::Rays => "from the side, cut where the eye looks: some of its rays, with one light's count along each",
+            Self::Rays => "a diagram: the scene from the side, cut where the eye looks, with rays, volumes and counts drawn in",
             Self::Complexity => "how often each pixel is drawn: depth complexity in false colour, with a legend",
             Self::Playground => "the stencil test to play with: shapes drawn one after another, every state free to choose",
         }

@@ -13,7 +13,7 @@ use obscura::scene::{LightKind, Scene, stock};
 use obscura::settings::{CameraChoice, Culling, LightBounds, LightEdit, Settings, Show, Technique};
 use obscura::techniques::bounds::EYE;
 use obscura::techniques::cases::Class;
-use obscura::techniques::rays::rays;
+use obscura::techniques::diagram::rays;
 use obscura::truth::World;
 
 const SIZE: [u32; 2] = [640, 360];

@@ -158,6 +158,7 @@ fn depth_complexity_is_printed() {
     let (average, most) = (report["complexity"]["average"].as_f64().unwrap(), report["complexity"]["maximum"].as_u64().unwrap());
     assert!(text.contains(&format!("{average:.3} on average")) && text.contains(&format!("{most} at most")), "{text}");
     assert!(bad(folder.path(), &["render", "cubes", "--out", "a.png", "--complexity", "depth"]).contains("updates, fragments"));
+    assert!(bad(folder.path(), &["render", "cubes", "--out", "a.png", "--diagram", "side"]).contains("rays, slice, ends"));
     assert!(bad(folder.path(), &["render", "cubes", "--out", "a.png", "--decals", "on"]).contains("z-fighting, offset, stencil"));
 }
 
@@ -345,7 +346,7 @@ fn figures_are_drawn_with_a_page_that_shows_them() {
     }
     assert_eq!(image::image_dimensions(here.join("figures/k19c.png")).unwrap(), (96, 54));
     for (arguments, expected) in [
-        (&["figures", "k99", "--out", "no"][..], "no figure `k99`; there are: k03a, "),
+        (&["figures", "k99", "--out", "no"][..], "no figure `k99`; there are: k02a, "),
         (&["figures", "", "--out", "no"], "no figure ``"),
         (&["figures", "c", "--out", "no", "--size", "0x5"], "0x5"),
     ] {

@@ -8,8 +8,8 @@ use glam::DVec3;
 
 use super::input::{InputError, check};
 use super::{
-    animation, by_name, complexity, counting, csg, culling, decals, dissolve, halo, index, light_edit, lighting, mirrors, names,
-    planar, playground, point, scene_choice, size,
+    animation, by_name, complexity, counting, csg, culling, decals, diagram, dissolve, halo, index, light_edit, lighting,
+    mirrors, names, planar, playground, point, scene_choice, size,
 };
 use crate::failures;
 use crate::scene::AnimationChoice;
@@ -79,6 +79,8 @@ pub(super) struct PictureArguments {
     #[command(flatten)]
     complexity: complexity::ComplexityArguments,
     #[command(flatten)]
+    diagram: diagram::DiagramArguments,
+    #[command(flatten)]
     decals: decals::DecalArguments,
     #[command(flatten)]
     dissolve: dissolve::DissolveArguments,
@@ -118,6 +120,7 @@ impl PictureArguments {
                 dissolve: settings.dissolve,
                 playground: settings.playground,
                 complexity: settings.complexity,
+                diagram: settings.diagram,
                 culling: settings.culling,
                 mirrors: settings.mirrors.of_another_scene(),
                 halos: settings.halos.of_another_scene(),
@@ -165,6 +168,7 @@ impl PictureArguments {
         self.counting.apply(&mut settings.counting)?;
         self.culling.apply(&mut settings.culling)?;
         self.complexity.apply(&mut settings.complexity)?;
+        self.diagram.apply(&mut settings.diagram)?;
         self.decals.apply(&mut settings.decals)?;
         self.dissolve.apply(&mut settings.dissolve)?;
         self.playground.apply(&mut settings.playground)?;

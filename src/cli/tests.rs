@@ -10,10 +10,10 @@ use proptest::prelude::*;
 use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
 use crate::settings::{
-    Accumulation, AreaMode, Board, CameraChoice, Complexity, Counting, Csg, Culling, DecalMode, Dissolve, Failure, Halos,
-    HybridPart, LEAST_TEXTURE, LastBounce, LightBounds, LightEdit, Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES, MAX_COUNT_BITS,
-    MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE, MirrorLight, MirrorMode, Mirrors, Operation, Overflow, Pattern, Planar, PlanarMode,
-    Playground, Show, SlideChoice, SurfacePlace, Technique, Texturing, boards,
+    Accumulation, AreaMode, Board, CameraChoice, Complexity, Counting, Csg, Culling, DecalMode, Diagram, Dissolve, Failure,
+    Halos, HybridPart, LEAST_TEXTURE, LastBounce, LightBounds, LightEdit, Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES,
+    MAX_COUNT_BITS, MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE, MirrorLight, MirrorMode, Mirrors, Operation, Overflow, Pattern,
+    Planar, PlanarMode, Playground, Show, SlideChoice, SurfacePlace, Technique, Texturing, boards,
 };
 
 fn command(line: &str) -> Result<Command, InputError> {
@@ -47,7 +47,7 @@ fn clap_finds_no_fault_in_the_definition() {
 #[test]
 fn every_argument_reaches_its_setting() {
     let got = settings(
-        "obscura render fox.glb --out a.png --technique z-pass --count-bits 3 --overflow naive --complexity fragments --decals offset --board masks --numbers --show stencil --failure saturating --light 2 --size 64x32 --samples 4 \
+        "obscura render fox.glb --out a.png --technique z-pass --count-bits 3 --overflow naive --complexity fragments --diagram both-faces --decals offset --board masks --numbers --show stencil --failure saturating --light 2 --size 64x32 --samples 4 \
          --eye -1,2.5,3e2 --target 0,0,-1 --fov 33.5 --far 7.5 --time 1.25 --animation 3 --floor --exposure -1.5 \
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --area-mode bits --light-sample 3 --accumulate 256 \
@@ -73,6 +73,7 @@ fn every_argument_reaches_its_setting() {
         technique: Technique::ZPass,
         counting: Counting { bits: 3, overflow: Overflow::Naive },
         complexity: Complexity::Fragments,
+        diagram: Diagram::BothFaces,
         decals: DecalMode::Offset,
         dissolve: Dissolve { into: Some(Technique::Parity), pattern: Pattern::Wipe, amount: 0.25, seconds: 3.0 },
         playground: Playground { board: (boards::find("masks").unwrap().build)(), numbers: true },
@@ -453,7 +454,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         prop::option::of(word().prop_filter("a folder", |path| !path.is_empty()).prop_map(PathBuf::from)),
         (
             prop::option::of(prop::sample::select(&Failure::ALL[..])),
-            prop::sample::select(&Complexity::ALL[..]),
+            (prop::sample::select(&Complexity::ALL[..]), prop::sample::select(&Diagram::ALL[..])),
             prop::sample::select(&DecalMode::ALL[..]),
             (0..boards::PRESETS.len(), any::<u8>(), any::<bool>()).prop_map(|(preset, clear, numbers)| {
                 let board = (boards::PRESETS[preset].build)();
@@ -472,7 +473,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
                 (culling, mirrors, halos, csg, planar, dissolve),
                 adapter,
                 shaders,
-                (failure, complexity, decals, playground),
+                (failure, (complexity, diagram), decals, playground),
             ),
         )| Settings {
             scene,
@@ -480,6 +481,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             technique,
             counting,
             complexity,
+            diagram,
             decals,
             dissolve,
             playground,

@@ -3,12 +3,12 @@
 use super::Frame;
 use crate::frame::plan::View;
 use crate::frame::{Camera, Method, Target};
-use crate::settings::{Technique, Texturing};
+use crate::settings::Technique;
 use crate::techniques::above::{Above, above};
 use crate::techniques::cases::{self, Class};
 use crate::techniques::labels::{self, Named};
-use crate::techniques::surfaces::{self, SurfaceGroup, Tint};
-use crate::techniques::{self, bounds, complexity, rays, show};
+use crate::techniques::surfaces::{self, SurfaceGroup};
+use crate::techniques::{self, bounds, complexity, show};
 
 impl Frame<'_> {
     /// Makes sure that the light whose volumes are shown has some, even when nothing counted them.
@@ -59,33 +59,6 @@ impl Frame<'_> {
         self.extend(complexity::colors(groups, budget, whole));
         self.push(show::copy(whole));
         self.extend(complexity::legend(what, self.plan.size, whole));
-    }
-
-    /// The scene from the side, cut where the eye looks, with some of its rays and one light's count along each.
-    pub(super) fn draw_rays(&mut self) {
-        let (whole, light) = (self.whole(), self.settings.light);
-        self.plan_casters(light);
-        let eye = self.plan.views[0].camera;
-        let side = rays::side(self.scene, self.pose, &eye);
-        self.plan.views[0] = View::of_eye("side", side, self.plan.size);
-        // Display values have no exposure.
-        self.plan.exposure = 1.0;
-        let groups = surfaces::opaque_groups(self.known(), self.view(), self.plan.size, Texturing::EachLight);
-        self.clear_all(cases::BACKGROUND, 0);
-        self.draw_solid();
-        let why = "Every surface in one colour: the rays are what is looked at.";
-        let tint = Tint { label: "surfaces", why, color: [0.62, 0.64, 0.68, 1.0], inside: false };
-        self.extend(surfaces::tinted(&groups, &tint, |_| true, whole));
-        self.extend(bounds::cut(&groups, whole));
-        self.extend(bounds::glass(&self.plan.volumes, light, whole));
-        self.push(show::copy(whole));
-        let found = rays::rays(self.scene, self.pose, &eye, light);
-        let (strokes, counts) = rays::overlay(&found, eye.eye, &side, self.plan.size);
-        self.push(rays::step(strokes, whole));
-        let named = Named { casters: self.settings.lighting.labels, eye: Some(eye.eye) };
-        let (mut names, _) = labels::labels(self.scene, self.pose, named, Camera { near: 0.0, ..side }, self.plan.size);
-        names.extend(counts);
-        self.push(labels::step(names, Target::Output, whole));
     }
 
     pub(super) fn draw_bounds(&mut self, eye: &Camera, above: &Above, scissor: Option<[u32; 4]>) {

@@ -377,6 +377,8 @@ pub enum LabelKind {
     Legend,
     /// A shape of the playground.
     Shape,
+    /// Words of a diagram, on a plate without a mark.
+    Note,
 }
 
 /// One primitive of one instance.

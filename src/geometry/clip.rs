@@ -43,7 +43,7 @@ pub(super) fn turn(a: DVec2, b: DVec2) -> f64 {
 }
 
 /// The area of a polygon whose corners are in order, positive counter-clockwise with the y axis up.
-pub(super) fn area(polygon: &[DVec2]) -> f64 {
+pub(crate) fn area(polygon: &[DVec2]) -> f64 {
     let Some(&first) = polygon.first() else { return 0.0 };
     let from_first = polygon.array_windows().map(|&[a, b]| turn(a - first, b - first));
     from_first.sum::<f64>() / 2.0

@@ -77,7 +77,7 @@ impl Labels {
         for (label, text) in labels.iter().zip(&texts) {
             let color = match label.kind {
                 LabelKind::Light => OF_LIGHTS,
-                LabelKind::Eye | LabelKind::Caster | LabelKind::Legend | LabelKind::Shape => OF_CASTERS,
+                LabelKind::Eye | LabelKind::Caster | LabelKind::Legend | LabelKind::Shape | LabelKind::Note => OF_CASTERS,
             };
             let [x, y, width, height] = label.plate;
             let size = text.rect.size();

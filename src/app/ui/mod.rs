@@ -12,6 +12,7 @@ mod counting;
 mod csg;
 mod culling;
 mod decals;
+mod diagram;
 mod dissolve;
 mod failures;
 mod figures;

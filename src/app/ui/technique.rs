@@ -3,6 +3,7 @@
 use egui::{RichText, Ui};
 
 use super::complexity::complexity;
+use super::diagram::diagram;
 use super::style::{self, explain, field, slider};
 use super::{Desk, View};
 use crate::app::keys::{Command, key_of};
@@ -48,6 +49,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
         legend(ui, desk, view);
     }
     complexity(ui, desk, view);
+    diagram(ui, desk);
     let lights = view.scene.map_or(&[][..], |scene| &scene.lights);
     let in_force = view.scene.map_or(0, |scene| scene.lights_in_force(&desk.settings.mirrors));
     let of_one_light = desk.settings.show.looks_at_light();

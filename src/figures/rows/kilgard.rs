@@ -5,10 +5,40 @@ use glam::DVec3;
 use super::{camera, csg, look, off};
 use crate::figures::{Figure, Paper};
 use crate::settings::{
-    Complexity, DecalMode, Dissolve, HybridPart, LightEdit, MirrorMode, Operation, Pattern, PlanarMode, Show, Technique,
+    Complexity, DecalMode, Diagram, Dissolve, HybridPart, LightEdit, MirrorMode, Operation, Pattern, PlanarMode, Show, Technique,
 };
 
 pub(super) static TABLE: &[Figure] = &[
+    Figure {
+        name: "k02a",
+        paper: Paper::Kilgard,
+        number: "Figure 2, left",
+        title: "A constrained reflection",
+        seen: "Every ray that looks down meets the floor, which reflects: nowhere can the eye look behind its plane, where the reflected things seem to stand.",
+        instead: "the live scene, cut open, for a drawing",
+        scene: "halo",
+        view: |settings| {
+            settings.show = Show::Rays;
+            settings.diagram = Diagram::Mirrors;
+            look(settings, [0.15, 1.5, 4.25], [0.15, 0.2, 1.6]);
+        },
+    },
+    Figure {
+        name: "k02b",
+        paper: Paper::Kilgard,
+        number: "Figure 2, right",
+        title: "An unconstrained reflection",
+        seen: "The mirror ends: some rays are turned back to the dinosaur, and others lead past the edge to behind the mirror's plane, where its reflection seems to stand.",
+        instead: "the live scene, cut open, for a drawing",
+        scene: "figure3",
+        view: |settings| {
+            settings.show = Show::Rays;
+            settings.diagram = Diagram::Mirrors;
+            settings.fov = Some(42.0);
+            settings.time = 0.0;
+            look(settings, [-2.9, 0.9, 0.02], [0.0, -0.1, 0.02]);
+        },
+    },
     Figure {
         name: "k03a",
         paper: Paper::Kilgard,
@@ -104,11 +134,12 @@ pub(super) static TABLE: &[Figure] = &[
         paper: Paper::Kilgard,
         number: "Figure 8",
         title: "A slice through a shadow volume",
-        seen: "The scene cut open where the eye looks: the lamp, the hanging slab, and what lies behind it within its volume.",
+        seen: "The slab's shadow volume, swept away from the lamp without end: of the ball, what lies within is in shadow, what lies outside is lit, wherever the eye is.",
         instead: "the live scene, cut open, for a drawing",
-        scene: "teapots",
+        scene: "slice",
         view: |settings| {
             settings.show = Show::Rays;
+            settings.diagram = Diagram::Slice;
         },
     },
     Figure {
@@ -139,12 +170,11 @@ pub(super) static TABLE: &[Figure] = &[
         paper: Paper::Kilgard,
         number: "Figure 10",
         title: "Counting enters and leaves",
-        seen: "Each ray counts one more where it enters a volume and one less where it leaves; where it ends on a surface with 0, that is lit.",
+        seen: "Each ray counts one more where it enters the volume and one less where it leaves; where it ends on a surface with 0, that is lit.",
         instead: "the live scene, cut open, for a drawing",
-        scene: "cubes",
+        scene: "slice",
         view: |settings| {
             settings.show = Show::Rays;
-            settings.time = 2.0;
         },
     },
     Figure {
@@ -182,12 +212,11 @@ pub(super) static TABLE: &[Figure] = &[
         paper: Paper::Kilgard,
         number: "Figure 13",
         title: "Counting several volumes",
-        seen: "Seen along the letters, each ray enters one letter's volume after the other and leaves it again: one more, one less, and 0 between them.",
+        seen: "Three volumes overlap: each that a ray enters is one more, each that it leaves one less. 0 is outside of all of them, and lit.",
         instead: "the live scene, cut open, for a drawing",
-        scene: "hello2rts",
+        scene: "slabs",
         view: |settings| {
             settings.show = Show::Rays;
-            look(settings, [4.0, 0.9, -0.6], [-1.0, 1.1, -0.9]);
         },
     },
     Figure {

@@ -2,7 +2,7 @@
 
 use super::{camera, look};
 use crate::figures::{Figure, Paper};
-use crate::settings::{LightBounds, Show};
+use crate::settings::{Diagram, LightBounds, Show};
 
 pub(super) static TABLE: &[Figure] = &[
     Figure {
@@ -10,11 +10,96 @@ pub(super) static TABLE: &[Figure] = &[
         paper: Paper::McGuire,
         number: "Figure 1",
         title: "Shadow volumes in a plane",
-        seen: "The same, with the eye itself in a shadow: its rays begin with a count that is not 0.",
+        seen: "A ray from the viewport to the point P and on to infinity: z-pass sums what is entered and left before P, z-fail what is beyond, and both find how many volumes hold it.",
         instead: "the live scene, cut open, for a drawing",
-        scene: "eye-in-shadow",
+        scene: "slabs",
         view: |settings| {
             settings.show = Show::Rays;
+            settings.diagram = Diagram::Ends;
+            look(settings, [-4.4, 1.7, 0.0], [2.6, 0.5, 0.0]);
+        },
+    },
+    Figure {
+        name: "m-f2a",
+        paper: Paper::McGuire,
+        number: "Figure 2, left",
+        title: "The occlusion pyramid before the viewport",
+        seen: "Solid red, from the light to the viewport: only what reaches into it can shade the viewport. Dashed blue, the view frustum.",
+        instead: "the live scene, cut open, for a drawing",
+        scene: "slabs",
+        view: |settings| {
+            settings.show = Show::Rays;
+            settings.diagram = Diagram::Pyramid;
+            look(settings, [4.2, 1.1, 0.0], [0.4, 3.1, 0.0]);
+        },
+    },
+    Figure {
+        name: "m-f2b",
+        paper: Paper::McGuire,
+        number: "Figure 2, right",
+        title: "The occlusion pyramid behind the viewport",
+        seen: "The eye looks away from the light: the pyramid lies behind the viewport, and so does what may shade it.",
+        instead: "the live scene, cut open, for a drawing",
+        scene: "slabs",
+        view: |settings| {
+            settings.show = Show::Rays;
+            settings.diagram = Diagram::Pyramid;
+            look(settings, [-1.9, 1.3, 0.0], [-5.0, 1.0, 0.0]);
+        },
+    },
+    Figure {
+        name: "m-f3",
+        paper: Paper::McGuire,
+        number: "Figure 3",
+        title: "A fan for a cap of any shape",
+        seen: "The letter's silhouette, seen from the light, and a triangle from one corner to each of its edges: front faces yellow, back faces cyan. Where both lie, green, the count goes up and down again, and the letter is left.",
+        instead: "a letter of ours for his polygon",
+        scene: "hello2rts",
+        view: |settings| {
+            settings.show = Show::Rays;
+            settings.diagram = Diagram::Fan;
+            look(settings, [-1.02, 2.5, 5.0], [-1.1, 2.5, 0.5]);
+        },
+    },
+    Figure {
+        name: "m-f4a",
+        paper: Paper::McGuire,
+        number: "Figure 4, case 1",
+        title: "The viewport is not in shadow",
+        seen: "The slab throws no shadow on the viewport: the sides of its volume are enough, counted before each surface.",
+        instead: "the live scene, cut open, for a drawing",
+        scene: "slice",
+        view: |settings| {
+            settings.show = Show::Rays;
+            settings.diagram = Diagram::Pyramid;
+        },
+    },
+    Figure {
+        name: "m-f4b",
+        paper: Paper::McGuire,
+        number: "Figure 4, case 2",
+        title: "The viewport is in shadow, looking away from the light",
+        seen: "The slab may shade the viewport, and is out of view: sides and dark cap, counted behind each surface.",
+        instead: "the live scene, cut open, for a drawing",
+        scene: "slice",
+        view: |settings| {
+            settings.show = Show::Rays;
+            settings.diagram = Diagram::Pyramid;
+            camera(settings, "away");
+        },
+    },
+    Figure {
+        name: "m-f4c",
+        paper: Paper::McGuire,
+        number: "Figure 4, case 3",
+        title: "The viewport is in shadow, looking towards the light",
+        seen: "The slab may shade the viewport, and is in view: sides and both caps.",
+        instead: "the live scene, cut open, for a drawing",
+        scene: "slice",
+        view: |settings| {
+            settings.show = Show::Rays;
+            settings.diagram = Diagram::Pyramid;
+            camera(settings, "towards the light");
         },
     },
     Figure {

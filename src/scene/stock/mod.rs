@@ -21,6 +21,7 @@ mod portals;
 mod projector;
 mod runway;
 mod shadowfun;
+mod slices;
 mod stairs;
 mod teapots;
 mod terraces;
@@ -149,8 +150,8 @@ pub static TABLE: &[StockScene] = &[
     },
 ];
 
-/// Scenes made for one failure of the gallery each ([`crate::failures`]): opened by name like the others,
-/// but listed there.
+/// Scenes made for one failure of the gallery each ([`crate::failures`]), or for the papers' diagrams
+/// ([`crate::techniques::diagram`]): opened by name like the others, but listed there.
 pub static DEMONSTRATIONS: &[StockScene] = &[
     StockScene {
         name: "hut",
@@ -161,6 +162,16 @@ pub static DEMONSTRATIONS: &[StockScene] = &[
         name: "awning",
         about: "an awning of strips, long panels beside short ones: the seams are where T-junctions would be",
         build: demonstrations::awning,
+    },
+    StockScene {
+        name: "slice",
+        about: "a slab hangs before a lamp, a ball lies partly in its shadow: made to be cut open (show rays)",
+        build: slices::slice,
+    },
+    StockScene {
+        name: "slabs",
+        about: "three slabs before a lamp, whose shadow volumes overlap: made to be cut open (show rays)",
+        build: slices::slabs,
     },
 ];
 
