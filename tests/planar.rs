@@ -197,7 +197,7 @@ fn blocked(scene: &Scene, settings: &Settings, floor: usize) -> Vec<Option<usize
 }
 
 #[test]
-fn blended_shadows_darken_each_pixel_once_for_each_light_and_naive_ones_do_not() {
+fn blended_shadows_darken_each_pixel_once_and_naive_ones_do_not() {
     let (scene, floor) = heaps();
     let mut settings = drawn_by(PlanarMode::StencilBlend, [3.0, 5.0, 7.0], [0.0, 0.3, 0.0]);
     receives(&mut settings, floor);
@@ -213,7 +213,7 @@ fn blended_shadows_darken_each_pixel_once_for_each_light_and_naive_ones_do_not()
         let picture = stage.shoot(&Settings { planar, ..settings.clone() }, &scene).image;
         let near = |a: &image::Rgba<u8>, b: &image::Rgba<u8>| (0..3).all(|i| a.0[i].abs_diff(b.0[i]) <= 1);
         let pixels = picture.pixels().enumerate();
-        // How often, at least, and how often it should have been.
+        // By how many lights, and how often it was darkened.
         let times = |(at, pixel): (usize, &image::Rgba<u8>)| {
             let expected = blocked[at]?;
             let (x, y) = (at as u32 % SIZE[0], at as u32 / SIZE[0]);
@@ -224,7 +224,9 @@ fn blended_shadows_darken_each_pixel_once_for_each_light_and_naive_ones_do_not()
     let once = darkened(PlanarMode::StencilBlend);
     let seen = |lights| once.iter().filter(|(expected, _)| *expected == lights).count();
     assert!([0, 1, 2].into_iter().all(|lights| seen(lights) > 60), "{} {} {}", seen(0), seen(1), seen(2));
-    assert!(once.iter().all(|(expected, found)| expected == found), "{:?}", once.iter().find(|(a, b)| a != b));
+    // Where two lights are blocked, too: real shadows leave nothing doubly dark.
+    let wrong = once.iter().find(|(lights, found)| *found != (*lights).min(1));
+    assert!(wrong.is_none(), "lights blocked, times darkened: {wrong:?}");
     let naive = darkened(PlanarMode::Naive);
     let twice = naive.iter().filter(|(expected, found)| found > expected).count();
     assert!(twice > 50, "{twice} pixels are darkened more often than there are lights blocked");

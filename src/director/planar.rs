@@ -54,11 +54,12 @@ impl Frame<'_> {
             }
             PlanarMode::StencilBlend => {
                 self.add_all(&lamps, groups);
-                for lamp in &lamps {
-                    self.each_tagged(&stands, true, |frame, stand, value| {
+                // Tagged once for all lights: what one of them has darkened no other finds.
+                self.each_tagged(&stands, true, |frame, stand, value| {
+                    for lamp in &lamps {
                         frame.throw(lamp, stand, Leaves::DarkOnce(value));
-                    });
-                }
+                    }
+                });
             }
             PlanarMode::StencilRelight => {
                 // What a mirror reflects lies beneath its own look, and cannot be drawn anew.

@@ -46,7 +46,7 @@ pub enum PlanarMode {
     Off,
     /// Blended over whatever is there, lifted by polygon offset.
     Naive,
-    /// The same on receivers alone, each pixel once for each light.
+    /// The same on receivers alone, each pixel once, however many lights are blocked there.
     StencilBlend,
     /// Shadowed pixels of receivers drawn anew, without the light that is blocked.
     StencilRelight,
@@ -82,7 +82,7 @@ impl PlanarMode {
                 "projected casters blended over the picture: dark patches, and shadows in mid-air (Kilgard 4, figures 6 and 7)"
             }
             Self::StencilBlend => {
-                "kept to the receivers by the stencil, and each pixel darkened once for each light (Kilgard 5, figure 7)"
+                "kept to the receivers by the stencil, and each pixel darkened once, by however many lights (Kilgard 5, figure 7)"
             }
             Self::StencilRelight => "shadowed pixels of receivers drawn anew without the blocked light (Kilgard 5)",
             Self::Multi => {

@@ -7,7 +7,8 @@
 //! ```text
 //!   naive            over everything, nearer by polygon offset, blended: where two triangles of a caster
 //!                    lie over each other it is darker, and beyond the receiver's rim it hangs in mid-air
-//!   stencil-blend    tag the receiver's visible pixels v; darken where v, which becomes 0
+//!   stencil-blend    tag the receiver's visible pixels v; darken where v, which becomes 0: once, whatever casts, and
+//!                    however many lights are blocked ("real shadows cannot leave an object doubly dark")
 //!   stencil-relight  lit by all; where v: v + 1; draw the receiver anew in ambient light where v + 1, and add to
 //!                    that each light that is not blocked there
 //!   multi            unlit; light by light: where v: v + 1; add the light where v, which becomes v + 1; and for the
