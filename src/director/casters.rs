@@ -99,7 +99,10 @@ impl Frame<'_> {
         let audience = self.audience(posed, scissor);
         let within = audience.receivers_within(&self.outlook.receivers, self.view().camera.eye);
         let caster = |(instance, _)| self.caster(&audience, &within, (posed, instance), Piece::Whole, None);
-        Some(self.casting().filter_map(caster).collect())
+        // A caster is large, and most instances are some: one allocation, and nothing is moved again.
+        let mut casters = Vec::with_capacity(self.outlook.nodes.len());
+        casters.extend(self.casting().filter_map(caster));
+        Some(casters)
     }
 
     /// What casts shadows: its number among the instances, and its node.
@@ -120,9 +123,11 @@ impl Frame<'_> {
         piece: Piece,
         reflected: Option<DVec4>,
     ) -> Option<Caster<'s>> {
-        let Outlook { receivers, near_pyramid, across, places, .. } = &self.outlook;
+        let Outlook { receivers, near_pyramid, across, places, nodes, .. } = &self.outlook;
         let view = self.view();
-        let (node_index, node, mesh) = self.scene.instances().nth(instance)?;
+        let node_index = *nodes.get(instance)?;
+        let node = &self.scene.nodes[node_index];
+        let mesh = &self.scene.meshes[node.mesh?];
         let world_from_object = self.pose.world_from_object[node_index];
         let world_from_object = reflected.map_or(world_from_object, |plane| reflection(plane) * world_from_object);
         let bounds = self.pose.bounds(self.scene, node_index);

@@ -37,6 +37,8 @@ pub(super) struct Outlook {
     pub receivers: Aabb,
     /// Where each instance lies before the mirror that is looked through.
     pub places: Vec<Place>,
+    /// The node of each instance.
+    pub nodes: Vec<usize>,
 }
 
 impl Outlook {
@@ -57,14 +59,16 @@ impl Outlook {
                 Place::Across
             }
         };
-        let places = scene.instances().enumerate().map(|(instance, (node, ..))| place(instance, node)).collect();
+        let nodes: Vec<_> = scene.instances().map(|(node, ..)| node).collect();
+        let places = nodes.iter().enumerate().map(|(instance, &node)| place(instance, node)).collect();
         Self {
             view: number,
             near_pyramid: NearPyramid::of(camera.eye, camera.near_rectangle()),
-            across: vec![OnceCell::new(); scene.instances().count()],
+            across: vec![OnceCell::new(); nodes.len()],
             stalls,
             receivers: scene.bounds(pose).union(&Aabb::around(camera.eye, camera.eye)),
             places,
+            nodes,
         }
     }
 }

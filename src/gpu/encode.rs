@@ -50,19 +50,18 @@ struct Pass<'a> {
 
 /// Records the whole plan.
 pub fn encode(encode: Encode<'_>, plan: &FramePlan, scene: &Scene, encoder: &mut wgpu::CommandEncoder) -> Drawn {
-    let instances: Vec<_> = scene.instances().collect();
     for (_, draw) in plan.draws() {
         encode.pipelines.prepare(encode.context, &encode.key(plan, draw));
         if let DrawSet::Swollen(swollen) = &draw.set {
             for surface in &swollen.surfaces {
-                let (_, node, mesh) = instances[surface.instance];
-                encode.buffers.prepare_outward(encode.context, surface.instance, node.mesh.unwrap_or(0), mesh);
+                let mesh = encode.buffers.shown[surface.instance].mesh;
+                encode.buffers.prepare_outward(encode.context, surface.instance, mesh, &scene.meshes[mesh]);
             }
         }
         if let DrawSet::Edges(shown) = &draw.set {
             for &instance in shown {
-                let (_, node, mesh) = instances[instance];
-                encode.buffers.prepare_edges(encode.context, node.mesh.unwrap_or(0), mesh);
+                let mesh = encode.buffers.shown[instance].mesh;
+                encode.buffers.prepare_edges(encode.context, mesh, &scene.meshes[mesh]);
             }
         }
     }
@@ -318,11 +317,11 @@ impl Encode<'_> {
             DrawSet::Surfaces(surfaces) => self.record_surfaces(pass, scene, surfaces, place.view, drawn),
             DrawSet::Runs(runs) => self.record_runs(pass, scene, runs, place.view, drawn),
             DrawSet::Swollen(swollen) => self.record_swollen(pass, scene, &swollen.surfaces, place.view, drawn),
-            DrawSet::Volumes(parts) => self.record_volumes(pass, plan, scene, (place.number, parts), drawn),
+            DrawSet::Volumes(parts) => self.record_volumes(pass, plan, (place.number, parts), drawn),
             DrawSet::Enclosure(_) | DrawSet::Triangles(_) => self.record_enclosure(pass, place.number, drawn),
             DrawSet::Labels(_) => self.record_labels(pass, drawn),
             DrawSet::Strokes(_) => self.record_lines(pass, drawn),
-            DrawSet::Edges(instances) => self.record_edges(pass, scene, instances, place.view, drawn),
+            DrawSet::Edges(instances) => self.record_edges(pass, instances, place.view, drawn),
         }
     }
 
@@ -334,10 +333,10 @@ impl Encode<'_> {
         view: usize,
         drawn: &mut Drawn,
     ) {
-        let instances: Vec<_> = scene.instances().collect();
+        let shown = &self.buffers.shown;
         let mut bound_instance = None;
         let mut bound_material = None;
-        let mesh_of = |surface: &Surface| instances[surface.instance].1.mesh;
+        let mesh_of = |surface: &Surface| shown[surface.instance].mesh;
         let at_rest = |surface: &Surface| self.buffers.deformed[surface.instance].is_none();
         // What follows each other and differs by its instance's number alone is one call.
         let joins = |a: &Surface, b: &Surface| {
@@ -346,17 +345,17 @@ impl Encode<'_> {
         };
         for run in surfaces.chunk_by(joins) {
             let surface = run[0];
-            let (_, node, mesh) = instances[surface.instance];
-            let primitive = mesh.primitives[surface.primitive];
+            let mesh_index = mesh_of(&surface);
+            let primitive = scene.meshes[mesh_index].primitives[surface.primitive];
             if bound_instance != Some(surface.instance) {
-                self.bind_mesh(pass, surface.instance, node.mesh.unwrap_or(0));
+                self.bind_mesh(pass, surface.instance, mesh_index);
                 bound_instance = Some(surface.instance);
             }
             if bound_material != Some(primitive.material) {
                 pass.set_bind_group(1, &self.buffers.materials[primitive.material], &[]);
                 bound_material = Some(primitive.material);
             }
-            let object = u32::try_from(view * instances.len() + surface.instance).unwrap_or(0);
+            let object = u32::try_from(view * shown.len() + surface.instance).unwrap_or(0);
             let count = u32::try_from(run.len()).unwrap_or(1);
             pass.draw_indexed(primitive.first_index..primitive.first_index + primitive.index_count, 0, object..object + count);
             drawn.draws += 1;
@@ -366,20 +365,20 @@ impl Encode<'_> {
 
     /// The vertices of an instance and the indices of its mesh, as surfaces are drawn with.
     fn bind_mesh(&self, pass: &mut wgpu::RenderPass<'_>, instance: usize, mesh: usize) {
-        let vertices = self.buffers.vertices(instance, mesh);
+        let vertices = self.buffers.vertices(instance);
         pass.set_vertex_buffer(0, vertices.positions.slice(..));
         pass.set_vertex_buffer(1, vertices.attributes.slice(..));
         pass.set_index_buffer(self.buffers.meshes[mesh].indices.slice(..), wgpu::IndexFormat::Uint32);
     }
 
     fn record_runs(&self, pass: &mut wgpu::RenderPass<'_>, scene: &Scene, runs: &[Run], view: usize, drawn: &mut Drawn) {
-        let instances: Vec<_> = scene.instances().collect();
+        let shown = &self.buffers.shown;
         for Run { surface, triangles: [from, to] } in runs {
-            let (_, node, mesh) = instances[surface.instance];
-            let (primitive, mesh_index) = (mesh.primitives[surface.primitive], node.mesh.unwrap_or(0));
+            let mesh_index = shown[surface.instance].mesh;
+            let primitive = scene.meshes[mesh_index].primitives[surface.primitive];
             self.bind_mesh(pass, surface.instance, mesh_index);
             pass.set_bind_group(1, &self.buffers.materials[primitive.material], &[]);
-            let object = u32::try_from(view * instances.len() + surface.instance).unwrap_or(0);
+            let object = u32::try_from(view * shown.len() + surface.instance).unwrap_or(0);
             pass.draw_indexed(primitive.first_index + from * 3..primitive.first_index + to * 3, 0, object..object + 1);
             drawn.draws += 1;
             drawn.triangles += u64::from(to - from);
@@ -394,16 +393,16 @@ impl Encode<'_> {
         view: usize,
         drawn: &mut Drawn,
     ) {
-        let instances: Vec<_> = scene.instances().collect();
+        let shown = &self.buffers.shown;
         for surface in surfaces {
-            let (_, node, mesh) = instances[surface.instance];
-            let (primitive, mesh_index) = (mesh.primitives[surface.primitive], node.mesh.unwrap_or(0));
-            let vertices = self.buffers.vertices(surface.instance, mesh_index);
+            let mesh_index = shown[surface.instance].mesh;
+            let primitive = scene.meshes[mesh_index].primitives[surface.primitive];
+            let vertices = self.buffers.vertices(surface.instance);
             let Some(outward) = &vertices.outward else { continue };
             pass.set_vertex_buffer(0, vertices.positions.slice(..));
             pass.set_vertex_buffer(1, outward.slice(..));
             pass.set_index_buffer(self.buffers.meshes[mesh_index].indices.slice(..), wgpu::IndexFormat::Uint32);
-            let object = u32::try_from(view * instances.len() + surface.instance).unwrap_or(0);
+            let object = u32::try_from(view * shown.len() + surface.instance).unwrap_or(0);
             pass.draw_indexed(primitive.first_index..primitive.first_index + primitive.index_count, 0, object..object + 1);
             drawn.draws += 1;
             drawn.triangles += u64::from(primitive.index_count / 3);
@@ -414,12 +413,10 @@ impl Encode<'_> {
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         plan: &FramePlan,
-        scene: &Scene,
         (number, parts): (usize, &[VolumePart]),
         drawn: &mut Drawn,
     ) {
         let (Some(long), Some(short)) = (self.frame.indices.buffer(), self.frame.short_indices.buffer()) else { return };
-        let instances: Vec<_> = scene.instances().collect();
         let mut bound = None;
         let mut bound_format = None;
         let mut merged_to = 0;
@@ -446,7 +443,7 @@ impl Encode<'_> {
             let instance = plan.volumes[part.volume].instance;
             let vertices_of = if first_vertex.is_some() { Bound::Cutouts } else { Bound::Instance(instance) };
             if bound != Some(vertices_of) {
-                let of_mesh = || &self.buffers.vertices(instance, instances[instance].1.mesh.unwrap_or(0)).volume;
+                let of_mesh = || &self.buffers.vertices(instance).volume;
                 let buffer = if first_vertex.is_some() { self.frame.cutout_vertices.buffer() } else { Some(of_mesh()) };
                 let Some(buffer) = buffer else { continue };
                 pass.set_vertex_buffer(0, buffer.slice(..));
@@ -506,14 +503,13 @@ impl Encode<'_> {
         drawn.triangles += u64::from(index_count / 3);
     }
 
-    fn record_edges(&self, pass: &mut wgpu::RenderPass<'_>, scene: &Scene, shown: &[usize], view: usize, drawn: &mut Drawn) {
-        let instances: Vec<_> = scene.instances().collect();
-        for &instance in shown {
-            let mesh_index = instances[instance].1.mesh.unwrap_or(0);
-            let Some((edges, count)) = &self.buffers.meshes[mesh_index].edges else { continue };
-            pass.set_vertex_buffer(0, self.buffers.vertices(instance, mesh_index).positions.slice(..));
+    fn record_edges(&self, pass: &mut wgpu::RenderPass<'_>, instances: &[usize], view: usize, drawn: &mut Drawn) {
+        let shown = &self.buffers.shown;
+        for &instance in instances {
+            let Some((edges, count)) = &self.buffers.meshes[shown[instance].mesh].edges else { continue };
+            pass.set_vertex_buffer(0, self.buffers.vertices(instance).positions.slice(..));
             pass.set_index_buffer(edges.slice(..), wgpu::IndexFormat::Uint32);
-            let object = u32::try_from(view * instances.len() + instance).unwrap_or(0);
+            let object = u32::try_from(view * shown.len() + instance).unwrap_or(0);
             pass.draw_indexed(0..*count, 0, object..object + 1);
             drawn.draws += 1;
         }

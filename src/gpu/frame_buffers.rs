@@ -10,7 +10,7 @@ use super::cutouts::{CutoutScratch, thrown};
 use super::kept::{Kept, Shape};
 use super::merged::Merged;
 use super::portions::{self, Portions};
-use super::scene_buffers::SceneBuffers;
+use super::scene_buffers::{SceneBuffers, Shown};
 use super::slides::Slides;
 use super::types::{Draw, Frame, Light, Object, Volume};
 use crate::frame::{DrawSet, FramePlan, Method, Part, Projection, View, VolumePart, VolumePlan, Window};
@@ -74,6 +74,7 @@ struct Scratch {
     reflected: Vec<Object>,
     reflected_numbers: HashMap<(usize, usize, [u64; 4]), usize>,
     parts: Vec<Option<VolumeParts>>,
+    same_shape: SameShape,
     enclosures: Vec<[f32; 4]>,
 }
 
@@ -243,8 +244,8 @@ impl FrameBuffers {
 
     /// Only the parts that some step draws are built.
     fn build_volumes(&mut self, buffers: &SceneBuffers, plan: &FramePlan, scene: &Scene, pose: &Pose) {
-        let same_shape = same_shape(plan);
         let scratch = &mut self.scratch;
+        scratch.same_shape.find(plan);
         scratch.parts.clear();
         scratch.parts.resize(plan.volumes.len(), None);
         for (_, draw) in plan.draws() {
@@ -252,7 +253,7 @@ impl FrameBuffers {
                 for part in parts {
                     let outline = plan.volumes[part.volume].outline;
                     let finite = plan.volumes[part.volume].extrusion.is_some();
-                    let first = same_shape[part.volume];
+                    let first = scratch.same_shape.first[part.volume];
                     let wanted = scratch.parts[first].get_or_insert(VolumeParts { outline, finite, ..VolumeParts::NONE });
                     match part.part {
                         Part::Sides | Part::SidesTurned => wanted.sides = true,
@@ -265,16 +266,15 @@ impl FrameBuffers {
         scratch.volumes.clear();
         scratch.reflected.clear();
         scratch.reflected_numbers.clear();
-        let instances: Vec<_> = scene.instances().collect();
+        let shown = &buffers.shown;
         for volume in &plan.volumes {
-            let (node_index, ..) = instances[volume.instance];
-            let world_from_object = volume.placed(&pose.world_from_object[node_index]);
+            let world_from_object = volume.placed(&pose.world_from_object[shown[volume.instance].node]);
             let light = light_in_object(&world_from_object, &pose.lights[volume.light]).as_vec4();
             // Instances of all views come first, and then what is reflected.
             let object = match volume.reflected {
-                None => volume.view * instances.len() + volume.instance,
+                None => volume.view * shown.len() + volume.instance,
                 Some(plane) => {
-                    let number = plan.views.len() * instances.len() + scratch.reflected.len();
+                    let number = plan.views.len() * shown.len() + scratch.reflected.len();
                     let key = (volume.view, volume.instance, plane.to_array().map(f64::to_bits));
                     *scratch.reflected_numbers.entry(key).or_insert_with(|| {
                         scratch.reflected.push(object(&plan.views[volume.view].camera.clip_from_world(), &world_from_object));
@@ -300,15 +300,15 @@ impl FrameBuffers {
                 _pad: 0,
             });
         }
-        self.describe_volumes(plan, scene, pose, &same_shape);
+        self.describe_volumes(buffers, plan, scene, pose);
         if !self.kept.is_same() {
-            self.build_indices(plan, scene, pose, &same_shape);
-            self.merge_volumes(buffers, plan, scene);
+            self.build_indices(buffers, plan, scene, pose);
+            self.merge_volumes(buffers, plan);
         }
     }
 
     /// What the volumes' indices will depend on.
-    fn describe_volumes(&mut self, plan: &FramePlan, scene: &Scene, pose: &Pose, same_shape: &[usize]) {
+    fn describe_volumes(&mut self, buffers: &SceneBuffers, plan: &FramePlan, scene: &Scene, pose: &Pose) {
         let Self { scratch, kept, .. } = self;
         kept.start();
         for (number, (_, draw)) in plan.draws().enumerate() {
@@ -316,21 +316,20 @@ impl FrameBuffers {
                 kept.draw(number, parts);
             }
         }
-        let instances: Vec<_> = scene.instances().collect();
         for ((number, volume), described) in plan.volumes.iter().enumerate().zip(&scratch.volumes) {
-            let (node, _, mesh) = instances[volume.instance];
+            let Shown { node, mesh } = buffers.shown[volume.instance];
             kept.volume(Shape {
                 instance: volume.instance,
-                posed: pose.posed(mesh, node).planes.build_number(),
+                posed: pose.posed(&scene.meshes[mesh], node).planes.build_number(),
                 light: described.light_in_object.map(f32::to_bits),
                 parts: scratch.parts[number],
-                first: same_shape[number],
+                first: scratch.same_shape.first[number],
                 plain: is_plain(volume) && volume.piece.is_whole(),
             });
         }
     }
 
-    fn build_indices(&mut self, plan: &FramePlan, scene: &Scene, pose: &Pose, same_shape: &[usize]) {
+    fn build_indices(&mut self, buffers: &SceneBuffers, plan: &FramePlan, scene: &Scene, pose: &Pose) {
         let scratch = &mut self.scratch;
         scratch.indices.clear();
         scratch.short_indices.clear();
@@ -338,11 +337,11 @@ impl FrameBuffers {
         scratch.portions.clear();
         self.volume_indices.clear();
         self.first_vertices.clear();
-        let instances: Vec<_> = scene.instances().collect();
         for (number, (volume, wanted)) in plan.volumes.iter().zip(&scratch.parts).enumerate() {
-            let (node_index, _, mesh) = instances[volume.instance];
+            let Shown { node: node_index, mesh } = buffers.shown[volume.instance];
+            let mesh = &scene.meshes[mesh];
             let light = Vec4::from_array(scratch.volumes[number].light_in_object);
-            let first = same_shape[number];
+            let first = scratch.same_shape.first[number];
             if first != number {
                 self.volume_indices.push(self.volume_indices[first].clone());
                 self.first_vertices.push(self.first_vertices[first]);
@@ -397,12 +396,10 @@ impl FrameBuffers {
     }
 
     /// What is small and drawn by the same step is put together.
-    fn merge_volumes(&mut self, buffers: &SceneBuffers, plan: &FramePlan, scene: &Scene) {
-        let instances: Vec<_> = scene.instances().collect();
+    fn merge_volumes(&mut self, buffers: &SceneBuffers, plan: &FramePlan) {
         let Self { merged, volume_indices, first_vertices, scratch, .. } = self;
         let welded = |volume: usize| {
-            let instance = plan.volumes[volume].instance;
-            let vertices = buffers.vertices(instance, instances[instance].1.mesh.unwrap_or(0));
+            let vertices = buffers.vertices(plan.volumes[volume].instance);
             first_vertices[volume].is_none().then_some(vertices.welded.as_slice())
         };
         let each_index = |part: VolumePart, each: &mut dyn FnMut(u32)| {
@@ -483,15 +480,28 @@ fn append(bytes: &mut Vec<u8>, uniform: &[u8]) {
 }
 
 /// For each volume the first whose indices are its own too: one caster's in one light, seen in several views.
-fn same_shape(plan: &FramePlan) -> Vec<usize> {
-    let mut first = HashMap::new();
-    let shape = |(number, volume): (usize, &VolumePlan)| {
-        let plain = is_plain(volume) && volume.method != Method::Dropped;
-        let of = (volume.instance, volume.light, volume.reflected.is_some(), portions::key(&volume.piece));
-        let key = (of, volume.outline == Outline::Polygons, volume.extrusion.is_some());
-        if plain { *first.entry(key).or_insert(number) } else { number }
-    };
-    plan.volumes.iter().enumerate().map(shape).collect()
+#[derive(Default)]
+struct SameShape {
+    first: Vec<usize>,
+    by_shape: HashMap<ShapeKey, usize>,
+}
+
+/// Caster, light, whether it is reflected, and which piece of it; whether it is built polygon by polygon, and whether it has
+/// an end of its own.
+type ShapeKey = ((usize, usize, bool, portions::Key), bool, bool);
+
+impl SameShape {
+    fn find(&mut self, plan: &FramePlan) {
+        let Self { first, by_shape } = self;
+        first.clear();
+        by_shape.clear();
+        first.extend(plan.volumes.iter().enumerate().map(|(number, volume)| {
+            let plain = is_plain(volume) && volume.method != Method::Dropped;
+            let of = (volume.instance, volume.light, volume.reflected.is_some(), portions::key(&volume.piece));
+            let key = (of, volume.outline == Outline::Polygons, volume.extrusion.is_some());
+            if plain { *by_shape.entry(key).or_insert(number) } else { number }
+        }));
+    }
 }
 
 /// It is thrown from its caster's silhouette, as that is; or from a part of the caster.

@@ -4,7 +4,7 @@ use super::context::{Context, GpuError};
 use super::texture::{self, Samplers};
 use super::types::{Attributes, Material};
 use crate::geometry::outward;
-use crate::scene::{AlphaMode, DeformedMesh, Mesh, Scene};
+use crate::scene::{AlphaMode, DeformedMesh, Mesh, Node, Scene};
 use bytemuck::cast_slice;
 use glam::Vec3;
 
@@ -15,10 +15,21 @@ const BUDGET: u64 = 3 << 30;
 pub struct SceneBuffers {
     /// One per mesh.
     pub meshes: Vec<MeshBuffers>,
+    /// What each instance shows, as [`Scene::instances`] counts them.
+    pub shown: Vec<Shown>,
     /// One per instance: its own vertices while it is deformed.
     pub deformed: Vec<Option<VertexBuffers>>,
     /// One per material.
     pub materials: Vec<wgpu::BindGroup>,
+}
+
+/// An instance of the scene that was set, found without a walk through its nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shown {
+    /// The node that shows it.
+    pub node: usize,
+    /// The mesh that is shown.
+    pub mesh: usize,
 }
 
 /// One mesh: its vertices at rest, and what every pose of it shares.
@@ -106,14 +117,16 @@ impl SceneBuffers {
                 })
             })
             .collect();
-        let deformed = scene.instances().map(|_| None).collect();
-        Ok(Self { meshes, deformed, materials })
+        let mesh_of = |node: &Node| node.mesh.unwrap_or(0);
+        let shown: Vec<_> = scene.instances().map(|(index, node, _)| Shown { node: index, mesh: mesh_of(node) }).collect();
+        let deformed = shown.iter().map(|_| None).collect();
+        Ok(Self { meshes, shown, deformed, materials })
     }
 
-    /// The vertices an instance of `mesh` shows now.
+    /// The vertices an instance shows now.
     #[must_use]
-    pub fn vertices(&self, instance: usize, mesh: usize) -> &VertexBuffers {
-        self.deformed[instance].as_ref().unwrap_or(&self.meshes[mesh].vertices)
+    pub fn vertices(&self, instance: usize) -> &VertexBuffers {
+        self.deformed[instance].as_ref().unwrap_or(&self.meshes[self.shown[instance].mesh].vertices)
     }
 
     /// Takes an instance's pose: its own vertices while it is deformed, the mesh's otherwise.

@@ -294,8 +294,9 @@ fn radius(scene: &Scene, settings: &Settings) -> f64 {
     if diagonal.is_finite() { (diagonal * PART_OF_SCENE).min(FARTHEST) } else { FARTHEST }
 }
 
-/// Every light on its way round, in parts of the whole: about the vertical, directional light about its direction.
-fn go_round(pose: &mut Pose, turns: f64, radius: f64) {
+/// Every light on its way round its place, in parts of the whole, metres away from it: about the vertical; directional
+/// light about its direction.
+pub fn go_round(pose: &mut Pose, turns: f64, radius: f64) {
     let (sin, cos) = (turns * TAU).sin_cos();
     for light in &mut pose.lights {
         if light.kind == LightKind::Directional {

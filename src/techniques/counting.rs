@@ -204,7 +204,8 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
         return nothing();
     }
     // Of those that are counted: the caster, and its volume's number.
-    let mut counted = Vec::new();
+    let mut counted = Vec::with_capacity(casters.len());
+    volumes.reserve(casters.len());
     for caster in casters {
         let decided = caster.sight.dropped.map(|reason| (Method::Dropped, reason)).or_else(|| (row.decide)(caster));
         let Some((method, reason)) = decided else { continue };

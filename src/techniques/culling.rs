@@ -53,9 +53,8 @@ impl Stalls {
     #[must_use]
     pub fn new(scene: &Scene, pose: &Pose, view: &View, window: Option<Body>) -> Self {
         let frustum = Body::frustum(view.camera.eye, view.camera.near_rectangle());
-        let mut sizes = Vec::new();
-        let mut boxes = Vec::new();
-        let mut seen = Vec::new();
+        let count = scene.instances().count();
+        let (mut sizes, mut boxes, mut seen) = (Vec::with_capacity(count), Vec::with_capacity(count), Vec::with_capacity(count));
         for (node, _, mesh) in scene.instances() {
             let bounds = pose.bounds(scene, node);
             let body = Body::boxed(&bounds, &pose.world_from_object[node]);
