@@ -88,9 +88,10 @@ fn every_picture_is_there_small_and_drawn_by_the_program() {
         assert!(path.is_file(), "{link} is not there");
         if link.ends_with(".png") {
             assert!(read_command(&path).unwrap().unwrap().starts_with("obscura render "), "{link}");
-            assert_eq!(image::image_dimensions(&path).unwrap(), (640, 360), "{link}");
+            // Two in a row, or three.
+            assert!([(640, 360), (480, 270)].contains(&image::image_dimensions(&path).unwrap()), "{link}");
             total += path.metadata().unwrap().len();
         }
     }
-    assert!(total > 0 && total < 1_500_000, "{total} bytes of pictures");
+    assert!(total > 0 && total < 2_200_000, "{total} bytes of pictures");
 }

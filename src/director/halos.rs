@@ -2,7 +2,7 @@
 
 use super::Frame;
 use crate::settings::{Show, Texturing};
-use crate::techniques::halo::{self, Glow};
+use crate::techniques::halo::{self, Glow, Glowing};
 use crate::techniques::surfaces;
 
 impl Frame<'_> {
@@ -23,7 +23,9 @@ impl Frame<'_> {
         #[expect(clippy::cast_precision_loss, reason = "pixels fit f32 exactly")]
         let pixels = halos.width / 100.0 * height as f32;
         let glow = Glow { color: halos.color, pixels, exposure: self.plan.exposure };
-        let steps = halo::steps(&groups, &self.glowing, glow, self.plan.budget, whole);
+        let mesh = surfaces::solid_group(self.known(), self.view());
+        let glowing = Glowing::new(&groups, &self.glowing, self.scene.solid.as_ref(), mesh);
+        let steps = halo::steps(&glowing, glow, self.plan.budget, whole);
         if steps.is_empty() {
             return;
         }

@@ -15,6 +15,8 @@
 //! A pixel takes the first shell that reaches it and no other, so no copy is blended over another, nor over itself: K's
 //! "use stenciling to avoid double blending". Shells are drawn nearer than they are by three times their width:
 //! before the floor that the object stands on, and behind what stands well before it.
+//!
+//! Two solids put together ([`super::csg`]) are one object: what swells is the mesh that casts their shadow.
 
 use glam::Vec3;
 
@@ -22,6 +24,8 @@ use super::surfaces::SurfaceGroup;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{Draw, DrawSet, Look, Program, Step, Surface, Swollen};
+use crate::scene::solid::Solid;
+use crate::settings::Operation;
 
 /// How a view's halos look.
 #[derive(Debug, Clone, Copy)]
@@ -37,15 +41,51 @@ pub struct Glow {
 /// Of the glow at the outline: how much of what lies behind it covers.
 const DENSEST: f32 = 0.9;
 
-/// Tag and shells of those surfaces of `groups` whose instances are `chosen`; nothing where there are none.
+/// What glows in a view.
+#[derive(Debug)]
+pub struct Glowing {
+    /// Tagged wherever they are, and swollen.
+    whole: Vec<SurfaceGroup>,
+    /// Tagged where they are seen: the operands of a solid, of which only parts are left.
+    seen: Vec<SurfaceGroup>,
+}
+
+impl Glowing {
+    /// Those surfaces of `groups` whose instances are `chosen`. Two solids put together glow as one, which `mesh` is; where
+    /// no mesh could be made of them they do not.
+    #[must_use]
+    pub fn new(groups: &[SurfaceGroup], chosen: &[bool], solid: Option<&Solid>, mesh: Option<SurfaceGroup>) -> Self {
+        let only = |wanted: &dyn Fn(usize) -> bool| {
+            let of_group = |group: &SurfaceGroup| {
+                let surfaces = group.surfaces.iter().copied().filter(|surface| wanted(surface.instance)).collect();
+                SurfaceGroup { kind: group.kind, surfaces }
+            };
+            groups.iter().map(of_group).filter(|group| !group.surfaces.is_empty()).collect::<Vec<_>>()
+        };
+        let Some(solid) = solid else {
+            return Self { whole: only(&|instance| chosen[instance]), seen: Vec::new() };
+        };
+        let operand = |instance| instance == solid.a || instance == solid.b;
+        let glows = chosen[solid.a] || chosen[solid.b];
+        // All of both is left of either: their outlines are the union's.
+        if solid.of.operation == Operation::Union {
+            return Self { whole: only(&|instance| if operand(instance) { glows } else { chosen[instance] }), seen: Vec::new() };
+        }
+        let mut whole = only(&|instance| !operand(instance) && chosen[instance]);
+        whole.extend(mesh.filter(|_| glows));
+        Self { whole, seen: only(&|instance| operand(instance) && glows) }
+    }
+}
+
+/// Tag and shells of what glows; nothing where nothing does.
 #[must_use]
-pub fn steps(groups: &[SurfaceGroup], chosen: &[bool], glow: Glow, budget: BitBudget, scissor: [u32; 4]) -> Vec<Step> {
-    let of_group = |group: &SurfaceGroup| {
-        let surfaces = group.surfaces.iter().copied().filter(|surface| chosen[surface.instance]).collect();
-        SurfaceGroup { kind: group.kind, surfaces }
-    };
-    let groups: Vec<_> = groups.iter().map(of_group).filter(|group| !group.surfaces.is_empty()).collect();
-    let mut steps: Vec<_> = groups.iter().map(|group| tag(group, budget, scissor)).collect();
+pub fn steps(glowing: &Glowing, glow: Glow, budget: BitBudget, scissor: [u32; 4]) -> Vec<Step> {
+    let Glowing { whole: groups, seen } = glowing;
+    if groups.is_empty() {
+        return Vec::new();
+    }
+    let mut steps: Vec<_> = groups.iter().map(|group| tag(group, Depth::IGNORE, budget, scissor)).collect();
+    steps.extend(seen.iter().map(|group| tag(group, Depth::SAME_SURFACE, budget, scissor)));
     // One call for what is clipped at a mirror's plane, and one for what is not.
     let copies = [false, true].map(|clipped| {
         let alike = groups.iter().filter(|group| group.kind.look.clipped == clipped);
@@ -66,10 +106,15 @@ fn shells(pixels: f32) -> u32 {
     ((pixels / 1.5).ceil() as u32).clamp(4, 20)
 }
 
-fn tag(group: &SurfaceGroup, budget: BitBudget, scissor: [u32; 4]) -> Step {
-    let draw = group.depth_draw(Depth::IGNORE, StencilState::tag_halo(budget), scissor);
-    let state = State { cull: Cull::None, ..draw.state };
-    let why = "Tags all pixels of what has a halo, hidden ones too: no halo will cover them.";
+fn tag(group: &SurfaceGroup, depth: Depth, budget: BitBudget, scissor: [u32; 4]) -> Step {
+    let draw = group.depth_draw(depth, StencilState::tag_halo(budget), scissor);
+    let hidden_too = depth == Depth::IGNORE;
+    let state = State { cull: if hidden_too { Cull::None } else { draw.state.cull }, ..draw.state };
+    let why = if hidden_too {
+        "Tags all pixels of what has a halo, hidden ones too: no halo will cover them."
+    } else {
+        "Tags what is seen of two solids put together, to the very pixel: their mesh was rounded otherwise."
+    };
     let label = format!("tag for halos{}", group.words());
     Step::drawing(label, why, Draw { state, stencil_reference: budget.halo_tag(), ..draw })
 }

@@ -23,7 +23,9 @@ fn check_tag(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(), 
     if state.counting || state.counted.is_some() || (state.shone != 0 && !state.tagged) {
         return Err("it tags for halos while the stencil holds a count");
     }
-    if draw.stencil_reference != plan.budget.halo_tag() || draw.state.color.is_some() || draw.state.depth != Depth::IGNORE {
+    // What is tagged where it is seen alone is a part of what was tagged before.
+    let everywhere = draw.state.depth == Depth::IGNORE || (state.tagged && draw.state.depth == Depth::SAME_SURFACE);
+    if draw.stencil_reference != plan.budget.halo_tag() || draw.state.color.is_some() || !everywhere {
         return Err("what has a halo is tagged wherever it is, and drawn no more");
     }
     // Nothing may be counted on top of it.

@@ -107,13 +107,34 @@ pub fn opaque_groups(known: Known<'_>, view: &View, size: [u32; 2], texturing: T
     groups
 }
 
+/// The mesh of two solids put together: what casts their shadow, and is not drawn itself; none where the view sees nothing
+/// of it.
+#[must_use]
+pub fn solid_group(known: Known<'_>, view: &View) -> Option<SurfaceGroup> {
+    let caster = known.scene.solid.as_ref()?.caster?;
+    let mut of_it = of_all(known, view).filter(|(.., surface)| surface.instance == caster);
+    let (kind, _, surface) = of_it.find(|_| known.places[caster] != Place::Unseen)?;
+    Some(SurfaceGroup { kind, surfaces: vec![surface] })
+}
+
 pub(in crate::techniques) fn described<'a>(
     known: Known<'a>,
     view: &'a View,
 ) -> impl Iterator<Item = (Kind, AlphaMode, Surface)> + 'a {
-    let Known { scene, pose, mirrors, decals, places } = known;
+    let Known { scene, decals, places, .. } = known;
     let through = view.through.as_ref().map(|window| window.exit);
-    let described = scene.instances().enumerate().flat_map(move |(instance, (node, _, mesh))| {
+    let casts_only = scene.solid.as_ref().and_then(|solid| solid.caster);
+    let is_seen = move |surface: Surface| {
+        let there = Some(surface.instance) != casts_only && places[surface.instance] != Place::Unseen;
+        there && Some(surface) != through && !decals.hides(surface)
+    };
+    of_all(known, view).filter(move |(.., surface)| is_seen(*surface))
+}
+
+/// Every surface, seen or not.
+fn of_all<'a>(known: Known<'a>, view: &'a View) -> impl Iterator<Item = (Kind, AlphaMode, Surface)> + 'a {
+    let Known { scene, pose, mirrors, decals, places } = known;
+    scene.instances().enumerate().flat_map(move |(instance, (node, _, mesh))| {
         let winding = view.winding.through(pose.world_from_object[node].matrix3.determinant());
         let role = scene.solid.as_ref().map_or(Role::Object, |solid| solid.role(instance));
         mesh.primitives.iter().enumerate().map(move |(primitive, part)| {
@@ -148,13 +169,7 @@ pub(in crate::techniques) fn described<'a>(
             };
             (kind, material.alpha, surface)
         })
-    });
-    let casts_only = scene.solid.as_ref().and_then(|solid| solid.caster);
-    let is_seen = move |surface: Surface| {
-        let there = Some(surface.instance) != casts_only && places[surface.instance] != Place::Unseen;
-        there && Some(surface) != through && !decals.hides(surface)
-    };
-    described.filter(move |(.., surface)| is_seen(*surface))
+    })
 }
 
 /// Materials at least this rough, and without metal, get no highlight: it would not be seen.
