@@ -25,6 +25,7 @@ mod mirrors;
 mod picture;
 mod planar;
 mod playground;
+mod silhouettes;
 mod verify;
 
 pub use bench::{BenchRequest, DEFAULT_FRAMES, Sweep, SweepRequest};

@@ -14,6 +14,7 @@ mod planar;
 mod reflections;
 mod rounds;
 mod shown;
+mod silhouettes;
 mod solids;
 mod views;
 
@@ -157,6 +158,7 @@ pub fn stage_changed(
     if let Some(failure) = settings.failure {
         failures::spoil(failure, &mut plan);
     }
+    silhouettes::choose(&mut plan, settings.silhouettes, scene, &pose, capabilities);
     validate(&plan)?;
     Ok((pose, plan))
 }

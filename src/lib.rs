@@ -171,7 +171,9 @@
 //! Which triangles face the light is decided once; silhouette, caps and the eye's count read that one
 //! decision, so a volume is closed whatever rounding does ([`geometry::silhouette`]). What the light sees
 //! edge-on goes with its neighbour towards the light, so that no side covers it at its own depth. What was decided is
-//! remembered while neither caster nor light moves ([`geometry::kept`]), and shared by the plan and the volumes. Z-fail and
+//! remembered while neither caster nor light moves ([`geometry::kept`]), and shared by the plan and the volumes. A compute
+//! shader can decide in the CPU's place (`gpu::compute`): floats where they are clear, else the CPU's own arithmetic in whole
+//! numbers, and indices in the CPU's order, so that plan, eye's count and volumes agree as before. Z-fail and
 //! exact z-pass are two roads to one count, and a test holds them to the same stencil value in every pixel.
 //!
 //! What is left is the rasteriser's own grid. It moves corners by up to half of a 256th of a pixel, and on

@@ -16,6 +16,7 @@ mod lighting;
 mod mirrors;
 mod planar;
 mod playground;
+mod silhouettes;
 
 pub use complexity::Complexity;
 pub use counting::{Counting, MAX_COUNT_BITS, Overflow};
@@ -28,6 +29,7 @@ pub use halo::{Halos, MAX_HALO_WIDTH};
 pub use lighting::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
 pub use mirrors::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorLight, MirrorMode, Mirrors, SurfacePlace, toggle};
 pub use planar::{HybridPart, Planar, PlanarMode};
+pub use silhouettes::Backend;
 
 pub use playground::{Api, Board, Face, Facing, LONGEST_NAME, MOST_SHAPES, Playground, Shape, ShapeKind};
 
@@ -83,6 +85,8 @@ pub struct Settings {
     pub lighting: Lighting,
     /// What is left out of counting shadows.
     pub culling: Culling,
+    /// Where silhouettes are found.
+    pub silhouettes: Backend,
     /// How coplanar geometry is drawn.
     pub decals: DecalMode,
     /// Whether the picture dissolves into another.
@@ -129,6 +133,7 @@ impl Default for Settings {
             lights: BTreeMap::new(),
             lighting: Lighting::default(),
             culling: Culling::default(),
+            silhouettes: Backend::default(),
             decals: DecalMode::default(),
             dissolve: Dissolve::default(),
             playground: Playground::default(),

@@ -7,7 +7,7 @@ use common::Stage;
 use glam::DVec3;
 use obscura::gpu::Renderer;
 use obscura::scene::stock;
-use obscura::settings::{CameraChoice, LightEdit, Settings, Show, Technique};
+use obscura::settings::{Backend, CameraChoice, LightEdit, Settings, Show, Technique};
 
 #[test]
 fn a_frame_after_others_is_the_frame_alone() {
@@ -24,6 +24,9 @@ fn a_frame_after_others_is_the_frame_alone() {
         ("by z-pass", Settings { technique: Technique::ZPass, ..first.clone() }),
         ("by z-pass, from elsewhere", Settings { technique: Technique::ZPass, camera: eye(-3.0), ..first.clone() }),
         ("polygon by polygon", Settings { technique: Technique::PerPolygon, ..first.clone() }),
+        ("by compute", Settings { silhouettes: Backend::Compute, ..first.clone() }),
+        ("by compute, from elsewhere", Settings { silhouettes: Backend::Compute, camera: eye(2.0), ..first.clone() }),
+        ("by compute, later", Settings { silhouettes: Backend::Compute, time: 3.0, ..first.clone() }),
         ("the first again", first.clone()),
     ];
     let mut stage = Stage::new();
@@ -44,7 +47,9 @@ fn a_frame_after_others_is_the_frame_alone() {
         assert_eq!(shot.stats.indices, *indices, "{name}");
         assert!(stage.stencil() == *stencil, "{name}");
     }
-    assert!(drawn[0].0 == drawn[1].0 && drawn[0].0 == drawn[8].0);
+    for (one, other) in [(0, 1), (0, 8), (2, 9), (3, 10), (0, 11)] {
+        assert!(drawn[one].0 == drawn[other].0, "{} and {}", frames[one].0, frames[other].0);
+    }
     let different = |frame: usize| assert!(drawn[frame].0 != drawn[0].0, "{} shows nothing new", frames[frame].0);
     [2, 3, 4, 6].into_iter().for_each(different);
 }

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 use obscura::frame::Program;
-use obscura::gpu::shaders::{Entry, Library, PROGRAMS, Vertices, entry_of};
+use obscura::gpu::shaders::{COMPUTE, Entry, Library, PROGRAMS, STAGES, Vertices, entry_of};
 use obscura::gpu::types;
 
 #[test]
@@ -133,7 +133,48 @@ fn shared_structs_have_the_same_layout() {
     );
     same_layout!("volume.wgsl", "Volume", types::Volume, [light_in_object, end_in_object, thrown, object, by_matrix, extrusion]);
     same_layout!("volume.wgsl", "Draw", types::Draw, [constant, light, swell]);
+    same_layout!(
+        "silhouettes.wgsl",
+        "Job",
+        types::Job,
+        [
+            light,
+            reach,
+            room,
+            rounding,
+            flags,
+            triangles,
+            neighbours,
+            pairs,
+            others,
+            incidences,
+            planes,
+            welded,
+            vertices,
+            facing,
+            edge_on,
+            sides,
+            cap,
+            dark,
+            triangle_count,
+            pair_count,
+            other_count,
+            triangle_block,
+            triangle_blocks,
+            edge_block,
+            edge_blocks
+        ]
+    );
     same_layout!("lit.wgsl", "Material", types::Material, [base_color, emissive, roughness, metallic, cutoff, unlit]);
+}
+
+#[test]
+fn every_stage_of_the_compute_shader_is_there_and_no_other() {
+    let module = Library::new(None).source(COMPUTE).unwrap().check().unwrap_or_else(|error| panic!("{error}"));
+    let found: Vec<_> = module.entry_points.iter().map(|point| (point.name.as_str(), point.stage)).collect();
+    assert_eq!(found, STAGES.map(|stage| (stage, naga::ShaderStage::Compute)));
+    // One thread for each of the draws that a workgroup takes, and so on: gpu/compute.rs knows how many.
+    assert!(module.entry_points.iter().all(|point| point.workgroup_size == [64, 1, 1]));
 }
 
 #[test]

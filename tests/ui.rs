@@ -17,8 +17,8 @@ use obscura::frame::{Camera, Capabilities, FramePlan};
 use obscura::scene::stock::StockScene;
 use obscura::scene::{self, Light, LightKind, Node, Pose, PosedLight, Scene};
 use obscura::settings::{
-    CameraChoice, Complexity, Csg, DecalMode, Failure, Halos, HybridPart, LastBounce, LightEdit, MirrorMode, Mirrors, Operation,
-    Planar, PlanarMode, SceneChoice, Settings, Show, SurfacePlace, Technique,
+    Backend, CameraChoice, Complexity, Csg, DecalMode, Failure, Halos, HybridPart, LastBounce, LightEdit, MirrorMode, Mirrors,
+    Operation, Planar, PlanarMode, SceneChoice, Settings, Show, SurfacePlace, Technique,
 };
 use obscura::techniques::TABLE;
 use obscura::techniques::cases::{self, Class};
@@ -167,6 +167,24 @@ fn each_technique_changes_just_the_technique() {
         assert!(harness.query_by_label_contains(row.about).is_some(), "{} is explained", row.title);
     }
     assert_eq!(harness.state().actions, []);
+}
+
+#[test]
+fn silhouettes_are_found_where_the_panel_says_and_only_where_the_device_can() {
+    let mut harness = open(Bench::new());
+    let choose = |harness: &mut Harness<'_, Bench>, label: &str| {
+        harness.get_by_role_and_label(Role::Button, label).click();
+        harness.run_steps(3);
+    };
+    choose(&mut harness, "Compute");
+    assert_eq!(settings(&harness), Settings { silhouettes: Backend::Compute, ..Settings::default() });
+    choose(&mut harness, "CPU");
+    assert_eq!(settings(&harness), Settings::default());
+    let mut bench = Bench::new();
+    bench.capabilities.compute_silhouettes = None;
+    let mut harness = open(bench);
+    choose(&mut harness, "Compute");
+    assert_eq!(settings(&harness), Settings::default());
 }
 
 /// The scene of a bench with casters in it, planned.

@@ -6,7 +6,7 @@ use super::{
     complexity as complexity_options, counting as counting_options, csg as csg_options, culling as culling_options,
     decals as decal_options, diagram as diagram_options, dissolve as dissolve_options, halo as halo_options, light_edit,
     lighting as lighting_options, mirrors as mirror_options, needs_dot, planar as planar_options,
-    playground as playground_options,
+    playground as playground_options, silhouettes as silhouette_options,
 };
 use crate::scene::AnimationChoice;
 use crate::settings::{CameraChoice, SceneChoice, Settings};
@@ -51,6 +51,7 @@ pub(super) fn picture_options(settings: &Settings, line: &mut Line) {
         lighting,
         counting,
         culling,
+        silhouettes,
         complexity,
         diagram,
         adapter,
@@ -120,6 +121,7 @@ pub(super) fn picture_options(settings: &Settings, line: &mut Line) {
     lighting_options::write(lighting, line);
     counting_options::write(counting, line);
     culling_options::write(culling, line);
+    silhouette_options::write(*silhouettes, line);
     complexity_options::write(*complexity, line);
     diagram_options::write(*diagram, line);
     decal_options::write(*decals, line);

@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::input::{InputError, check};
 use super::{
     animation, by_name, complexity, counting, csg, culling, decals, diagram, dissolve, halo, index, light_edit, lighting,
-    mirrors, names, planar, playground, point, scene_choice, size,
+    mirrors, names, planar, playground, point, scene_choice, silhouettes, size,
 };
 use crate::failures;
 use crate::scene::AnimationChoice;
@@ -94,6 +94,8 @@ pub(super) struct PictureArguments {
     csg: csg::CsgArguments,
     #[command(flatten)]
     planar: planar::PlanarArguments,
+    #[command(flatten)]
+    silhouettes: silhouettes::SilhouetteArguments,
     /// The graphics adapter: part of its name
     #[arg(long, value_name = "SUBSTRING", allow_hyphen_values = true)]
     adapter: Option<String>,
@@ -122,6 +124,7 @@ impl PictureArguments {
                 complexity: settings.complexity,
                 diagram: settings.diagram,
                 culling: settings.culling,
+                silhouettes: settings.silhouettes,
                 mirrors: settings.mirrors.of_another_scene(),
                 halos: settings.halos.of_another_scene(),
                 csg: settings.csg.of_another_scene(),
@@ -167,6 +170,7 @@ impl PictureArguments {
         self.lighting.apply(&mut settings.lighting)?;
         self.counting.apply(&mut settings.counting)?;
         self.culling.apply(&mut settings.culling)?;
+        self.silhouettes.apply(&mut settings.silhouettes)?;
         self.complexity.apply(&mut settings.complexity)?;
         self.diagram.apply(&mut settings.diagram)?;
         self.decals.apply(&mut settings.decals)?;

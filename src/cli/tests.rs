@@ -10,8 +10,8 @@ use proptest::prelude::*;
 use super::*;
 use crate::scene::{Animation, BuiltInSlide, Light, Scene};
 use crate::settings::{
-    Accumulation, AreaMode, Board, CameraChoice, Complexity, Counting, Csg, Culling, DecalMode, Diagram, Dissolve, Failure,
-    Halos, HybridPart, LEAST_TEXTURE, LastBounce, LightBounds, LightEdit, Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES,
+    Accumulation, AreaMode, Backend, Board, CameraChoice, Complexity, Counting, Csg, Culling, DecalMode, Diagram, Dissolve,
+    Failure, Halos, HybridPart, LEAST_TEXTURE, LastBounce, LightBounds, LightEdit, Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES,
     MAX_COUNT_BITS, MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE, MirrorLight, MirrorMode, Mirrors, Operation, Overflow, Pattern,
     Planar, PlanarMode, Playground, Show, SlideChoice, SurfacePlace, Technique, Texturing, boards,
 };
@@ -51,7 +51,7 @@ fn every_argument_reaches_its_setting() {
          --eye -1,2.5,3e2 --target 0,0,-1 --fov 33.5 --far 7.5 --time 1.25 --animation 3 --floor --exposure -1.5 \
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --area-mode bits --light-sample 3 --accumulate 256 \
-         --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on \
+         --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on --silhouettes compute \
          --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --mirror-texture 77 --mirror-light virtual --least-pixels 25 --mirror 12=on --mirror 3:1=off \
          --dissolve parity --dissolve-pattern wipe --dissolve-amount 0.25 --dissolve-seconds 3 --halo 4 --halo 5=off --halo-color 0.5,0,1 --halo-width 2.5 --csg a-minus-b --csg-a 6 --csg-b 9 \
          --planar hybrid --hybrid planar --receiver 4=on --receiver 5:2=off \
@@ -100,6 +100,7 @@ fn every_argument_reaches_its_setting() {
             labels: true,
         },
         culling: Culling { on: false, light_bounds: LightBounds::Sphere, caster_scissors: true, depth_bounds: true },
+        silhouettes: Backend::Compute,
         adapter: Some("llvm".into()),
         mirrors: Mirrors {
             mode: MirrorMode::Stencil,
@@ -449,7 +450,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         prop::collection::btree_map(any::<usize>(), any_edit(), 0..4),
         lighting,
         (1..=MAX_COUNT_BITS, prop::sample::select(&Overflow::ALL[..])).prop_map(|(bits, overflow)| Counting { bits, overflow }),
-        (culling, mirrors, halos, csg, planar, dissolve),
+        (culling, mirrors, halos, csg, planar, dissolve, prop::sample::select(&Backend::ALL[..])),
         prop::option::of(word()),
         prop::option::of(word().prop_filter("a folder", |path| !path.is_empty()).prop_map(PathBuf::from)),
         (
@@ -470,7 +471,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
                 lights,
                 lighting,
                 counting,
-                (culling, mirrors, halos, csg, planar, dissolve),
+                (culling, mirrors, halos, csg, planar, dissolve, silhouettes),
                 adapter,
                 shaders,
                 (failure, (complexity, diagram), decals, playground),
@@ -500,6 +501,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             lights,
             lighting,
             culling,
+            silhouettes,
             adapter,
             mirrors,
             halos,

@@ -19,6 +19,9 @@ pub struct Capabilities {
     pub wide_counts: WideCounts,
     /// Four samples a pixel can be counted so, each by itself.
     pub wide_four_samples: bool,
+    /// Silhouettes can be found by a compute shader (compute, indirect draws, `INDIRECT_FIRST_INSTANCE`), whose buffers
+    /// hold so many bytes at most.
+    pub compute_silhouettes: Option<u64>,
     /// Pixels a side.
     pub max_size: u32,
 }
@@ -74,6 +77,7 @@ impl Capabilities {
             float_depth: true,
             wide_counts: WideCounts::Float32,
             wide_four_samples: true,
+            compute_silhouettes: Some(128 << 20),
             max_size: 8192,
         }
     }

@@ -12,7 +12,7 @@ use crate::geometry::cutout::{CutoutPlane, Throw};
 use crate::geometry::planar::reflection;
 use crate::geometry::volume::Outline;
 use crate::geometry::{Enclosure, Flaw, LitPlane, VolumeParts};
-use crate::settings::Accumulation;
+use crate::settings::{Accumulation, Backend};
 
 /// Everything that one frame does, in order: ids and values only.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -204,6 +204,9 @@ pub struct VolumePlan {
     /// What the caster itself is thrown onto, where that is done instead of counting a volume.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub projection: Option<Projection>,
+    /// What finds its caster's silhouette.
+    #[serde(skip_serializing_if = "Backend::is_cpu")]
+    pub silhouette: Backend,
     /// How it is built wrongly, where it is so on purpose.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flaw: Option<Flaw>,

@@ -1,5 +1,6 @@
 //! Pure math, no GPU and no scene: bounds, frusta, mesh topology, silhouettes, shadow volumes, mirrors, planar shadows.
 
+pub mod arena;
 pub mod bounds;
 pub mod clip;
 pub mod cutout;

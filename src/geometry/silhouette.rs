@@ -105,6 +105,21 @@ impl Planes {
         self.build
     }
 
+    /// Normal, offset and narrowness of each, as bits.
+    pub(super) fn append_words(&self, words: &mut Vec<u32>) {
+        for at in 0..self.len() {
+            words.extend([self.x[at], self.y[at], self.z[at], self.offset[at], self.narrow[at]].map(f32::to_bits));
+        }
+    }
+
+    /// What facing `light` is decided with beside planes: the light's reach, the room, and what rounding leaves
+    /// open.
+    #[must_use]
+    pub fn unsure(&self, light: Vec4) -> [f32; 3] {
+        let EdgeOn { reach, room, .. } = EdgeOn::new(&self.bounds, light);
+        [reach, room, EdgeOn::ROUNDING]
+    }
+
     /// Of how many triangles.
     #[must_use]
     pub fn len(&self) -> usize {

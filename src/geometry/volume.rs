@@ -294,15 +294,11 @@ fn counted<'a>(topology: &'a Topology, facing: &'a Facing, contribution: i8) -> 
 /// Every direction from the light to a vertex lies strictly within one half-space, with a margin
 /// wide enough for the rounding of the extruded vertices.
 fn within_half_space(welded: &[Vec3], bounds: &Aabb, light: Vec3, edges: &[[u32; 2]]) -> bool {
-    // The least cosine to the half-space's axis, and the rounding of coordinates.
-    const MARGIN: f64 = 1e-3;
-    const ROUNDING: f64 = 1e-6;
-    let light = light.as_dvec3();
-    let reach = light.abs().max_element().max(bounds.min.abs().max(bounds.max.abs()).max_element().into());
-    let distance = bounds.distance_to(light);
-    if distance > MARGIN * (distance + 2.0 * f64::from(bounds.radius())) + ROUNDING * reach {
+    if box_within_half_space(bounds, light) {
         return true;
     }
+    let light = light.as_dvec3();
+    let reach = reach(bounds, light);
     // Within the box there may still be a half-space, about the silhouette's mean direction.
     let towards = |vertex: Vec3| vertex.as_dvec3() - light;
     let sum: DVec3 = edges.iter().map(|edge| towards(welded[edge[0] as usize]).normalize_or_zero()).sum();
@@ -311,4 +307,21 @@ fn within_half_space(welded: &[Vec3], bounds: &Aabb, light: Vec3, edges: &[[u32;
         let direction = towards(vertex);
         direction.dot(axis) > MARGIN * direction.length() + ROUNDING * reach
     })
+}
+
+/// The least cosine to the half-space's axis.
+const MARGIN: f64 = 1e-3;
+/// Of coordinates.
+const ROUNDING: f64 = 1e-6;
+
+/// The same told by a caster's box alone: every point of it, and so all of the caster.
+#[must_use]
+pub fn box_within_half_space(bounds: &Aabb, light: Vec3) -> bool {
+    let light = light.as_dvec3();
+    let distance = bounds.distance_to(light);
+    distance > MARGIN * (distance + 2.0 * f64::from(bounds.radius())) + ROUNDING * reach(bounds, light)
+}
+
+fn reach(bounds: &Aabb, light: DVec3) -> f64 {
+    light.abs().max_element().max(bounds.min.abs().max(bounds.max.abs()).max_element().into())
 }

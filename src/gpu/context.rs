@@ -148,6 +148,7 @@ impl Context {
             wide_counts: if blends_float32 { WideCounts::Float32 } else { WideCounts::Float16 },
             wide_four_samples: four(counts_format(blends_float32))
                 && adapter.get_downlevel_capabilities().flags.contains(wgpu::DownlevelFlags::MULTISAMPLED_SHADING),
+            compute_silhouettes: computes(&adapter, features, &limits),
             max_size: limits.max_texture_dimension_2d,
         };
         Ok(Self { instance, adapter, device, queue, capabilities, watch })
@@ -226,7 +227,18 @@ impl Watch {
 const WANTED_FEATURES: wgpu::Features = wgpu::Features::DEPTH_CLIP_CONTROL
     .union(wgpu::Features::DEPTH32FLOAT_STENCIL8)
     .union(wgpu::Features::TIMESTAMP_QUERY)
+    .union(wgpu::Features::INDIRECT_FIRST_INSTANCE)
     .union(wgpu::Features::FLOAT32_BLENDABLE);
+
+/// The bytes that a compute shader's buffers hold at most, where it can find silhouettes.
+fn computes(adapter: &wgpu::Adapter, features: wgpu::Features, limits: &wgpu::Limits) -> Option<u64> {
+    const BUFFERS: u32 = 8;
+    let needed = wgpu::DownlevelFlags::COMPUTE_SHADERS | wgpu::DownlevelFlags::INDIRECT_EXECUTION;
+    let there = features.contains(wgpu::Features::INDIRECT_FIRST_INSTANCE)
+        && adapter.get_downlevel_capabilities().flags.contains(needed)
+        && limits.max_storage_buffers_per_shader_stage >= BUFFERS;
+    there.then_some(limits.max_storage_buffer_binding_size.min(limits.max_buffer_size))
+}
 
 /// Sums of ones: R32Float where it can be blended, for it is exact to 2^24; else R16Float, which
 /// every device blends, exact to 2048.

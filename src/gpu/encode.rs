@@ -1,5 +1,6 @@
 //! Walks the plan and records it: neighbours with the same attachments share one render pass.
 
+use super::compute::ARGUMENTS;
 use super::context::Context;
 use super::frame_buffers::{FrameBuffers, STRIDE, range_of};
 use super::labels::Labels;
@@ -25,6 +26,8 @@ pub struct Encode<'a> {
     pub output: &'a wgpu::TextureView,
     pub format: wgpu::TextureFormat,
     pub timing: &'a Timing,
+    /// The frame's time began before its first render pass.
+    pub begun_before: bool,
 }
 
 /// What was drawn.
@@ -69,7 +72,7 @@ pub fn encode(encode: Encode<'_>, plan: &FramePlan, scene: &Scene, encoder: &mut
     let last_scene = passes.iter().rposition(|pass| pass.target == Target::Scene);
     let mut drawn = Drawn::default();
     for (index, pass) in passes.iter().enumerate() {
-        let timestamps = encode.timing.writes(index == 0, index + 1 == passes.len());
+        let timestamps = encode.timing.writes(index == 0 && !encode.begun_before, index + 1 == passes.len());
         let mut recorder = encode.begin(encoder, plan, pass, Some(index) == last_scene, timestamps);
         recorder.set_bind_group_checked(0, encode.frame.bind_group(), Place::default());
         for &(place, draw) in &pass.draws {
@@ -429,6 +432,13 @@ impl Encode<'_> {
             if at < merged_to {
                 continue;
             }
+            if let Some(slot) = self.frame.compute.slot(*part) {
+                let vertices = &self.buffers.vertices(plan.volumes[part.volume].instance).volume;
+                self.record_computed(pass, slot, vertices);
+                (bound, bound_format) = (None, None);
+                drawn.draws += 1;
+                continue;
+            }
             let (indices, format) = &self.frame.volume_indices[part.volume];
             let range = range_of(indices, part.part);
             if range.is_empty() {
@@ -457,6 +467,15 @@ impl Encode<'_> {
             drawn.triangles += triangles;
             drawn.volume_triangles += triangles;
         }
+    }
+
+    /// A part whose indices a compute shader has found: it alone knows how many.
+    fn record_computed(&self, pass: &mut wgpu::RenderPass<'_>, slot: u32, vertices: &wgpu::Buffer) {
+        let compute = &self.frame.compute;
+        let (Some(indices), Some(draws)) = (compute.indices.buffer(), compute.draws.buffer()) else { return };
+        pass.set_vertex_buffer(0, vertices.slice(..));
+        pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.draw_indexed_indirect(draws, u64::from(slot) * ARGUMENTS);
     }
 
     fn record_merged(&self, pass: &mut wgpu::RenderPass<'_>, run: &merged::Run, drawn: &mut Drawn) {

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use bytemuck::cast_slice;
 use glam::{DAffine3, DMat3, DMat4, DVec4, Mat4, Vec3, Vec4};
 
+use super::compute::Compute;
 use super::context::{Context, GpuError};
 use super::cutouts::{CutoutScratch, thrown};
 use super::kept::{Kept, Shape};
@@ -51,6 +52,8 @@ pub struct FrameBuffers {
     pub enclosures: Vec<(usize, std::ops::Range<u32>)>,
     /// Volumes of small casters, once more.
     pub merged: Merged,
+    /// Volumes whose silhouettes the device finds.
+    pub compute: Compute,
     /// Whether all these are the last frame's.
     kept: Kept,
     bind_group: Option<wgpu::BindGroup>,
@@ -93,20 +96,37 @@ impl Growing {
 
     /// Writes `bytes`; true where the buffer was made anew.
     pub fn write(&mut self, context: &Context, bytes: &[u8], least: usize) -> bool {
-        let needed = bytes.len().max(least).next_multiple_of(16) as u64;
-        let grown = self.buffer.as_ref().is_none_or(|buffer| buffer.size() < needed);
-        if grown {
-            self.buffer = Some(context.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(self.label),
-                size: (needed + needed / 2 / 16 * 16).min(context.device.limits().max_buffer_size).max(needed),
-                usage: self.usage,
-                mapped_at_creation: false,
-            }));
-        }
+        let grown = self.reserve(context, bytes.len().max(least) as u64);
         if let Some(buffer) = &self.buffer {
             context.queue.write_buffer(buffer, 0, bytes);
         }
         grown
+    }
+
+    /// Makes room for so many bytes, what was in it lost where that takes another buffer; says whether it does.
+    pub fn reserve(&mut self, context: &Context, bytes: u64) -> bool {
+        let needed = bytes.next_multiple_of(16).max(16);
+        let grown = self.buffer.as_ref().is_none_or(|buffer| buffer.size() < needed);
+        if grown {
+            let limits = context.device.limits();
+            let in_one_piece = self.usage.contains(wgpu::BufferUsages::STORAGE);
+            let bound = if in_one_piece { limits.max_storage_buffer_binding_size } else { u64::MAX };
+            let largest = limits.max_buffer_size.min(bound);
+            self.buffer = Some(context.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(self.label),
+                size: (needed + needed / 2 / 16 * 16).min(largest / 16 * 16).max(needed),
+                usage: self.usage,
+                mapped_at_creation: false,
+            }));
+        }
+        grown
+    }
+
+    /// Writes into what there is room for.
+    pub fn write_at(&self, context: &Context, offset: u64, bytes: &[u8]) {
+        if let Some(buffer) = self.buffer.as_ref().filter(|_| !bytes.is_empty()) {
+            context.queue.write_buffer(buffer, offset, bytes);
+        }
     }
 
     /// The buffer, once something was written.
@@ -135,6 +155,7 @@ impl Default for FrameBuffers {
             enclosure_vertices: Growing::new("solids about lights", wgpu::BufferUsages::VERTEX),
             enclosures: Vec::new(),
             merged: Merged::default(),
+            compute: Compute::default(),
             kept: Kept::default(),
             bind_group: None,
             scratch: Scratch::default(),
@@ -153,6 +174,7 @@ impl FrameBuffers {
     pub fn forget_scene(&mut self) {
         self.slides.forget();
         self.kept.forget();
+        self.compute.forget_scene();
         self.bind_group = None;
     }
 
@@ -203,7 +225,12 @@ impl FrameBuffers {
         grown |= self.lights.write(context, cast_slice(&scratch.lights), size_of::<Light>());
         grown |= self.volumes.write(context, cast_slice(&scratch.volumes), size_of::<Volume>());
         grown |= self.draws.write(context, &scratch.draws, STRIDE as usize);
-        if !self.kept.is_same() {
+        if self.kept.is_same() {
+            self.compute.keep();
+        } else {
+            let of_scene = (scene, pose, buffers.shown.as_slice());
+            let first = &scratch.same_shape.first;
+            self.compute.prepare(context, plan, of_scene, &scratch.parts, first, &scratch.volumes);
             self.merged.write(context);
             self.indices.write(context, cast_slice(&scratch.indices), 4);
             self.cutout_vertices.write(context, cast_slice(&scratch.cutouts.vertices), 16);
@@ -325,6 +352,7 @@ impl FrameBuffers {
                 parts: scratch.parts[number],
                 first: scratch.same_shape.first[number],
                 plain: is_plain(volume) && volume.piece.is_whole(),
+                silhouette: volume.silhouette,
             });
         }
     }
@@ -347,7 +375,7 @@ impl FrameBuffers {
                 self.first_vertices.push(self.first_vertices[first]);
                 continue;
             }
-            let Some(parts) = *wanted else {
+            let Some(parts) = wanted.filter(|_| volume.silhouette.is_cpu()) else {
                 self.volume_indices.push((VolumeIndices::default(), wgpu::IndexFormat::Uint16));
                 self.first_vertices.push(None);
                 continue;
@@ -400,7 +428,8 @@ impl FrameBuffers {
         let Self { merged, volume_indices, first_vertices, scratch, .. } = self;
         let welded = |volume: usize| {
             let vertices = buffers.vertices(plan.volumes[volume].instance);
-            first_vertices[volume].is_none().then_some(vertices.welded.as_slice())
+            let copied = first_vertices[volume].is_none() && plan.volumes[volume].silhouette.is_cpu();
+            copied.then_some(vertices.welded.as_slice())
         };
         let each_index = |part: VolumePart, each: &mut dyn FnMut(u32)| {
             let (indices, format) = &volume_indices[part.volume];
@@ -443,6 +472,18 @@ impl FrameBuffers {
         self.scratch.objects.clear();
         self.scratch.objects.extend(plan.views.iter().flat_map(described));
         self.scratch.objects.append(&mut self.scratch.reflected);
+    }
+
+    /// A part's indices, as the CPU built them.
+    #[must_use]
+    pub fn built(&self, part: VolumePart) -> Vec<u32> {
+        let (indices, format) = &self.volume_indices[part.volume];
+        let range = range_of(indices, part.part);
+        let range = range.start as usize..range.end as usize;
+        match format {
+            wgpu::IndexFormat::Uint16 => self.scratch.short_indices[range].iter().map(|&index| index.into()).collect(),
+            wgpu::IndexFormat::Uint32 => self.scratch.indices[range].to_vec(),
+        }
     }
 
     /// Indices built this frame, and their bytes.

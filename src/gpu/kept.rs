@@ -5,6 +5,7 @@
 
 use crate::frame::VolumePart;
 use crate::geometry::VolumeParts;
+use crate::settings::Backend;
 
 /// What one volume's indices depend on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,6 +22,8 @@ pub struct Shape {
     pub first: usize,
     /// Nothing else has a say.
     pub plain: bool,
+    /// What finds its silhouette.
+    pub silhouette: Backend,
 }
 
 /// What the indices of the last frame that was uploaded depended on, and this one's.

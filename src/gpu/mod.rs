@@ -3,6 +3,7 @@
 //! [`Context`] is the device, [`Renderer`] everything made on it for one scene. A lost device is
 //! dealt with by making both anew from the CPU scene.
 
+mod compute;
 pub mod context;
 mod cutouts;
 mod encode;
@@ -159,7 +160,9 @@ impl Renderer {
         self.lines.write(context, plan);
 
         let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+        let begun_before = self.frame.compute.dispatch(context, &self.pipelines, &mut encoder, self.timing.begins());
         let work = encode::Encode {
+            begun_before,
             context,
             pipelines: &mut self.pipelines,
             buffers,
@@ -198,6 +201,11 @@ impl Renderer {
     /// The newest frame time that has arrived from the device, milliseconds.
     pub fn gpu_ms(&mut self) -> Option<f64> {
         self.timing.latest()
+    }
+
+    /// What the last frame's volumes were drawn from.
+    pub(crate) fn frame_buffers(&self) -> &FrameBuffers {
+        &self.frame
     }
 
     /// What the last frame was drawn into.

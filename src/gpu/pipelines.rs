@@ -85,6 +85,7 @@ pub struct Pipelines {
     solid: [wgpu::PipelineLayout; 2],
     modules: HashMap<&'static str, wgpu::ShaderModule>,
     made: HashMap<Key, wgpu::RenderPipeline>,
+    generation: u64,
 }
 
 impl Pipelines {
@@ -227,6 +228,7 @@ impl Pipelines {
             targets_layout,
             modules,
             made: HashMap::new(),
+            generation: 0,
         })
     }
 
@@ -251,6 +253,7 @@ impl Pipelines {
         match pollster::block_on(scope.pop()) {
             None => {
                 self.made = made;
+                self.generation += 1;
                 Ok(())
             }
             Some(error) => {
@@ -259,6 +262,18 @@ impl Pipelines {
                 Err(GpuError::Shader(lines.join(" ")))
             }
         }
+    }
+
+    /// The module of a file of the library's.
+    #[must_use]
+    pub fn module(&self, file: &str) -> &wgpu::ShaderModule {
+        &self.modules[file]
+    }
+
+    /// How often the shaders were taken anew.
+    #[must_use]
+    pub const fn generation(&self) -> u64 {
+        self.generation
     }
 
     /// Makes the pipeline if it is not there yet.

@@ -2,7 +2,7 @@
 
 use super::context::{Context, GpuError};
 use super::{FrameStats, Renderer};
-use crate::frame::{FramePlan, WideCounts};
+use crate::frame::{DrawSet, FramePlan, VolumePart, WideCounts};
 use crate::scene::{Pose, Scene};
 
 /// The format pictures are drawn in without a window. Like every picture's it does not convert: the shaders
@@ -129,6 +129,56 @@ fn read(
         },
         wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
     );
+    let bytes = finish(context, encoder, &buffer)?;
+    Ok(bytes.chunks_exact(padded as usize).flat_map(|line| &line[..row as usize]).copied().collect())
+}
+
+/// The indices of every part of a volume that the last frame drew, by the CPU or on the device, in the order in which
+/// `plan`, which is that frame's, draws them first.
+///
+/// # Errors
+/// A device that does not answer.
+pub fn volume_parts(context: &Context, renderer: &Renderer, plan: &FramePlan) -> Result<Vec<(VolumePart, Vec<u32>)>, GpuError> {
+    let frame = renderer.frame_buffers();
+    let words = |buffer: Option<&wgpu::Buffer>| buffer.map_or(Ok(Vec::new()), |buffer| all_words(context, buffer));
+    let (draws, indices) = (words(frame.compute.draws.buffer())?, words(frame.compute.indices.buffer())?);
+    let mut parts: Vec<(VolumePart, Vec<u32>)> = Vec::new();
+    for (_, draw) in plan.draws() {
+        let DrawSet::Volumes(drawn) = &draw.set else { continue };
+        for &part in drawn {
+            if parts.iter().any(|(known, _)| *known == part) {
+                continue;
+            }
+            let found = match frame.compute.slot(part) {
+                None => frame.built(part),
+                Some(slot) => {
+                    let at = slot as usize * 5;
+                    let [count, first] = [draws[at], draws[at + 2]].map(|word| word as usize);
+                    indices[first..first + count].to_vec()
+                }
+            };
+            parts.push((part, found));
+        }
+    }
+    Ok(parts)
+}
+
+/// All of a buffer that can be copied from.
+fn all_words(context: &Context, source: &wgpu::Buffer) -> Result<Vec<u32>, GpuError> {
+    let buffer = context.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("read back"),
+        size: source.size(),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("read back") });
+    encoder.copy_buffer_to_buffer(source, 0, &buffer, 0, source.size());
+    let bytes = finish(context, encoder, &buffer)?;
+    Ok(bytes.as_chunks::<4>().0.iter().map(|word| u32::from_le_bytes(*word)).collect())
+}
+
+/// Submits what copies into `buffer`, and waits for its bytes.
+fn finish(context: &Context, encoder: wgpu::CommandEncoder, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
     let submission = context.queue.submit([encoder.finish()]);
     let (sender, receiver) = std::sync::mpsc::channel();
     buffer.map_async(wgpu::MapMode::Read, .., move |result| {
@@ -142,7 +192,7 @@ fn read(
         Err(_) => return Err(GpuError::Device("the picture did not come back".into())),
     }
     let view = buffer.get_mapped_range(..).map_err(|error| GpuError::Device(error.to_string()))?;
-    let bytes: Vec<u8> = view.chunks_exact(padded as usize).flat_map(|line| &line[..row as usize]).copied().collect();
+    let bytes = view.to_vec();
     drop(view);
     buffer.unmap();
     Ok(bytes)

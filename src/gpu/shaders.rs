@@ -42,7 +42,14 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("playground.wgsl", include_str!("../../shaders/playground.wgsl")),
     ("solid.wgsl", include_str!("../../shaders/solid.wgsl")),
     ("output.wgsl", include_str!("../../shaders/output.wgsl")),
+    ("shared/double.wgsl", include_str!("../../shaders/shared/double.wgsl")),
+    (COMPUTE, include_str!("../../shaders/silhouettes.wgsl")),
 ];
+
+/// The compute shader that finds silhouettes.
+pub const COMPUTE: &str = "silhouettes.wgsl";
+/// Its entry points, in the order in which they run.
+pub const STAGES: [&str; 7] = ["face", "follow", "pivot", "tally", "scan", "write", "arguments"];
 
 /// What vertices a program reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -274,11 +281,11 @@ impl Library {
     /// The first file's first error, with its place.
     pub fn load(&self) -> Result<HashMap<&'static str, Source>, GpuError> {
         let mut sources = HashMap::new();
-        for entry in PROGRAMS {
-            if !sources.contains_key(entry.file) {
-                let source = self.source(entry.file).map_err(GpuError::Shader)?;
+        for file in PROGRAMS.iter().map(|entry| entry.file).chain([COMPUTE]) {
+            if !sources.contains_key(file) {
+                let source = self.source(file).map_err(GpuError::Shader)?;
                 source.check().map_err(GpuError::Shader)?;
-                sources.insert(entry.file, source);
+                sources.insert(file, source);
             }
         }
         Ok(sources)

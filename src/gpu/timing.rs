@@ -60,6 +60,16 @@ impl Timing {
         })
     }
 
+    /// What a compute pass before all of them writes: the start.
+    #[must_use]
+    pub fn begins(&self) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
+        Some(wgpu::ComputePassTimestampWrites {
+            query_set: self.queries.as_ref()?,
+            beginning_of_pass_write_index: Some(0),
+            end_of_pass_write_index: None,
+        })
+    }
+
     /// Records the copy of this frame's timestamps; the slot to [`read`](Self::read) after submitting.
     pub fn resolve(&mut self, encoder: &mut wgpu::CommandEncoder) -> Option<usize> {
         let (queries, resolve) = (self.queries.as_ref()?, self.resolve.as_ref()?);

@@ -169,3 +169,59 @@ pub struct Attributes {
     /// Sine of the terminator bound.
     pub sin_bound: f32,
 }
+
+/// One volume whose silhouette a compute shader finds. Words of the arenas, places among facings and indices.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Job {
+    /// The light in object space, as bits.
+    pub light: [u32; 4],
+    /// As [`crate::geometry::Planes::unsure`] gives it, as bits.
+    pub reach: u32,
+    /// The same.
+    pub room: u32,
+    /// The same.
+    pub rounding: u32,
+    /// Which parts are built, and how.
+    pub flags: u32,
+    /// Where the mesh's triangles stand in the arena of topologies.
+    pub triangles: u32,
+    /// Their neighbours.
+    pub neighbours: u32,
+    /// The edges of two triangles.
+    pub pairs: u32,
+    /// All other edges.
+    pub others: u32,
+    /// Those edges' triangles.
+    pub incidences: u32,
+    /// Where the planes stand in the arena of poses.
+    pub planes: u32,
+    /// The welded vertices.
+    pub welded: u32,
+    /// How many welded vertices there are.
+    pub vertices: u32,
+    /// The first triangle's place among facings.
+    pub facing: u32,
+    /// The place of the list of those seen edge-on.
+    pub edge_on: u32,
+    /// The first index of the sides.
+    pub sides: u32,
+    /// Of the light cap.
+    pub cap: u32,
+    /// Of the dark cap.
+    pub dark: u32,
+    /// How many triangles there are.
+    pub triangle_count: u32,
+    /// Edges of two triangles.
+    pub pair_count: u32,
+    /// Other edges.
+    pub other_count: u32,
+    /// The first block of triangles.
+    pub triangle_block: u32,
+    /// How many there are.
+    pub triangle_blocks: u32,
+    /// The first block of edges.
+    pub edge_block: u32,
+    /// How many there are.
+    pub edge_blocks: u32,
+}

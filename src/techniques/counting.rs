@@ -23,7 +23,7 @@ use crate::geometry::light_in_object;
 use crate::geometry::near_rectangle::may_shadow;
 use crate::geometry::{Aabb, Enclosure};
 use crate::scene::{AlphaMode, Mesh, Node, Pose, PosedLight, Scene};
-use crate::settings::{Overflow, Technique};
+use crate::settings::{Backend, Overflow, Technique};
 
 /// One caster before one light, as a technique's `decide` sees it.
 pub struct Caster<'a> {
@@ -283,6 +283,7 @@ pub(super) fn planned(row: &Row, caster: &Caster<'_>, light: usize, (method, rea
         turns: matches!(caster.piece, Piece::Primitive(_)) || !caster.mesh.topology.report().is_solid(),
         winding: caster.winding(),
         projection: None,
+        silhouette: Backend::Cpu,
         flaw: None,
     }
 }

@@ -35,7 +35,7 @@ use crate::geometry::planar_shadow::{Lies, LitPlane, lies};
 use crate::geometry::volume::Outline;
 use crate::geometry::{Aabb, VolumeParts};
 use crate::scene::{Pose, PosedReceiver, Receiver, Scene};
-use crate::settings::{HybridPart, MirrorLight, Mirrors, Planar, PlanarMode, Settings, Show, Technique};
+use crate::settings::{Backend, HybridPart, MirrorLight, Mirrors, Planar, PlanarMode, Settings, Show, Technique};
 
 /// What is laid over shadows that are blended: half of what is there is left (K section 5).
 const DARK: [f32; 4] = [0.0, 0.0, 0.0, 0.5];
@@ -242,6 +242,7 @@ impl Thrower {
             // Both sides are drawn: what faces the light has been decided.
             winding: State::FLAT.winding,
             projection: projection.filter(|_| method == Method::Projected),
+            silhouette: Backend::Cpu,
             flaw: None,
         }
     }

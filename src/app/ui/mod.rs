@@ -27,6 +27,7 @@ mod picture;
 mod planar;
 mod playground;
 mod scene;
+mod silhouettes;
 pub mod style;
 mod technique;
 mod time;
@@ -274,7 +275,10 @@ impl Panel {
     fn sections(&mut self, ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>, actions: &mut Vec<Action>) {
         style::section_unfolded(ui, "Scene", true, self.focus_path, |ui| scene::scene(ui, self, desk, view, actions));
         style::section(ui, "Frame", true, |ui| numbers::numbers(ui, desk, view));
-        style::section(ui, "Technique", true, |ui| technique::techniques(ui, desk));
+        style::section(ui, "Technique", true, |ui| {
+            technique::techniques(ui, desk);
+            silhouettes::silhouettes(ui, desk, view);
+        });
         style::section(ui, "Show", true, |ui| technique::show(ui, desk, view));
         style::section(ui, "Decals", false, |ui| decals::decals(ui, desk, view));
         style::section(ui, "Dissolve", false, |ui| dissolve::dissolve(ui, desk));

@@ -1,0 +1,159 @@
+//! Silhouettes found by the compute shader are the CPU's: index for index, stencil for stencil, pixel for pixel.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+
+mod common;
+mod shapes;
+
+use common::{Build, Stage, cube, mesh, seen_from, square};
+use glam::DVec3;
+use obscura::frame::{Capabilities, Part, VolumePart};
+use obscura::gpu::readback::volume_parts;
+use obscura::scene::{LightKind, Scene, stock};
+use obscura::settings::{Backend, Failure, LightEdit, MirrorLight, Settings, Show, Technique};
+use proptest::strategy::{Strategy as _, ValueTree as _};
+
+/// Draws by both; the stencils, the pictures and the parts must be equal. Gives how many parts the shader has built.
+fn assert_equal(stage: &mut Stage, scene: &Scene, settings: &Settings, about: &str) -> usize {
+    let by = |stage: &mut Stage, silhouettes: Backend| {
+        let shot = stage.shoot(&Settings { silhouettes, ..settings.clone() }, scene);
+        let parts = volume_parts(&stage.context, &stage.renderer, &shot.plan).unwrap();
+        (shot, parts, stage.stencil())
+    };
+    let (cpu, cpu_parts, cpu_stencil) = by(stage, Backend::Cpu);
+    let (compute, parts, stencil) = by(stage, Backend::Compute);
+    let names = |parts: &[(VolumePart, Vec<u32>)]| parts.iter().map(|(part, _)| *part).collect::<Vec<_>>();
+    assert_eq!(names(&cpu_parts), names(&parts), "{about}");
+    for ((part, expected), (_, found)) in cpu_parts.iter().zip(&parts) {
+        // Where the box does not tell that a fan will do, the shader takes all triangles: the count is the same.
+        let other_way = part.part == Part::DarkCap && expected.len() != found.len();
+        assert!(expected == found || other_way, "{about}: {part:?}, {} and {} indices", expected.len(), found.len());
+    }
+    let differ = cpu_stencil.iter().zip(&stencil).filter(|(a, b)| a != b).count();
+    assert_eq!(differ, 0, "{about}: stencil values differ");
+    assert!(cpu.image == compute.image, "{about}: pixels differ");
+    let computed = |(part, indices): &&(VolumePart, Vec<u32>)| {
+        compute.plan.volumes[part.volume].silhouette == Backend::Compute && !indices.is_empty()
+    };
+    parts.iter().filter(computed).count()
+}
+
+#[test]
+fn stock_scenes_are_the_same_by_every_technique() {
+    let mut stage = Stage::new();
+    for (name, least) in [("courtyard", 8), ("terraces", 8), ("cathedral", 8), ("gallery", 2)] {
+        let scene = stock::build(name).unwrap().unwrap();
+        stage.set_scene(&scene);
+        let mut built = 0;
+        for technique in [Technique::Auto, Technique::ZFail, Technique::ZPass, Technique::Wide] {
+            for (light, time) in [(0, 0.5), (scene.lights.len() - 1, 7.0)] {
+                let show = if technique == Technique::Auto { Show::Final } else { Show::Stencil };
+                let settings = Settings { technique, show, light, time, size: [160, 90], ..Settings::default() };
+                built += assert_equal(&mut stage, &scene, &settings, &format!("{name} by {technique:?}"));
+            }
+        }
+        assert!(built >= least, "{name}: the shader built only {built} parts");
+    }
+}
+
+/// A heap of everything that is not closed and simple.
+fn heap() -> Scene {
+    let mut build = Build::new();
+    build.floor(0.0, 20.0);
+    let solid = build.mesh(cube(0));
+    build.place(solid, DVec3::new(-2.0, 1.5, 0.0), DVec3::ONE);
+    build.place(solid, DVec3::new(2.0, 1.5, 1.0), DVec3::new(-1.0, 1.0, 0.5));
+    let sheet = build.mesh(square(1));
+    build.place(sheet, DVec3::new(0.0, 4.0, 0.0), DVec3::ONE);
+    // Three pages on one spine, one of them the wrong way round.
+    let corners = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [1.0, 0.6, 0.0], [-1.0, 0.7, 0.1], [0.1, 1.0, 0.2]];
+    let book = build.mesh(mesh("book", &corners, &[[0, 1, 2], [1, 0, 3], [0, 1, 4]], 1));
+    build.place(book, DVec3::new(0.0, 1.0, -3.0), DVec3::ONE);
+    build.point_light(DVec3::new(1.0, 7.0, 2.0));
+    build.light(LightKind::Directional, DVec3::Y, DVec3::new(-0.4, -1.0, 0.2), 3.0);
+    build.0
+}
+
+#[test]
+fn sheets_books_suns_and_lights_in_a_face_are_the_same() {
+    let mut stage = Stage::new();
+    let scene = heap();
+    stage.set_scene(&scene);
+    let base = Settings { show: Show::Stencil, ..seen_from(DVec3::new(5.0, 5.0, 9.0), DVec3::Y, [160, 90]) };
+    let mut built = 0;
+    for technique in [Technique::ZFail, Technique::ExactZPass, Technique::Beam] {
+        built += assert_equal(&mut stage, &scene, &Settings { technique, light: 1, ..base.clone() }, "the sun");
+        // In the plane of a cube's top, of its side, in line with an edge; within a cube; close to the book's spine.
+        for at in [[7.0, 2.5, 3.0], [-1.0, 6.0, 4.0], [-3.0, 2.5, 9.0], [-2.0, 1.5, 0.25], [0.0, 1.0, 3.0], [0.3, 1.2, -2.8]] {
+            let edit = LightEdit { position: Some(at.into()), ..LightEdit::default() };
+            let settings = Settings { technique, lights: [(0, edit)].into(), ..base.clone() };
+            built += assert_equal(&mut stage, &scene, &settings, &format!("{technique:?} from {at:?}"));
+        }
+    }
+    assert!(built > 60, "{built}");
+}
+
+#[test]
+fn random_solids_and_soups_are_the_same_index_for_index() {
+    let mut stage = Stage::new();
+    let mut runner = proptest::test_runner::TestRunner::deterministic();
+    let whole = |value: f32| f64::from((value * 4.0).round()) / 4.0;
+    for case in 0..60 {
+        let shape = shapes::shape().new_tree(&mut runner).unwrap().current();
+        let light = shapes::light().new_tree(&mut runner).unwrap().current();
+        let mut build = Build::new();
+        build.0.meshes.push(shape.mesh);
+        build.place(0, DVec3::ZERO, DVec3::ONE);
+        build.floor(-9.0, 30.0);
+        // Every other light stands on a grid, where it is in many planes.
+        let at = light.truncate().to_array().map(|value| if case % 2 == 0 { whole(value) } else { f64::from(value) });
+        if light.w == 0.0 {
+            build.light(LightKind::Directional, DVec3::ZERO, -DVec3::from_array(at), 1.0);
+        } else {
+            build.point_light(at.into());
+        }
+        stage.set_scene(&build.0);
+        let settings = Settings {
+            show: Show::Stencil,
+            technique: Technique::ZFail,
+            ..seen_from(DVec3::new(6.0, 9.0, 12.0), DVec3::ZERO, [48, 32])
+        };
+        assert_equal(&mut stage, &build.0, &settings, &format!("case {case}: {at:?}"));
+    }
+}
+
+#[test]
+fn what_the_shader_does_not_build_is_said() {
+    let mut stage = Stage::new();
+    let scene = stock::build("courtyard").unwrap().unwrap();
+    stage.set_scene(&scene);
+    let base = Settings { silhouettes: Backend::Compute, size: [64, 36], ..Settings::default() };
+    let note = |settings: &Settings| {
+        let (_, plan) = obscura::director::stage(settings, &scene, stage.context.capabilities()).unwrap();
+        plan.notes.iter().find(|note| note.contains("on the CPU")).cloned()
+    };
+    assert_eq!(note(&base), None);
+    let said = |settings: &Settings, words: &str| {
+        let note = note(settings);
+        assert!(note.as_ref().is_some_and(|note| note.contains(words)), "{note:?} does not say: {words}");
+    };
+    said(&Settings { technique: Technique::PerPolygon, ..base.clone() }, "polygon");
+    said(&Settings { technique: Technique::Flattened, ..base.clone() }, "cut-outs");
+    said(&Settings { failure: Some(Failure::DarkCapFan), ..base.clone() }, "wrongly");
+    let afar = LightEdit { position: Some(DVec3::splat(2e9)), range: Some(f32::INFINITY), ..LightEdit::default() };
+    let mut lit_from_afar = Settings { technique: Technique::ZFail, lights: [(0, afar)].into(), ..base.clone() };
+    lit_from_afar.culling.on = false;
+    said(&lit_from_afar, "farther");
+    let lacking = |largest| {
+        let capabilities = Capabilities { compute_silhouettes: largest, ..Capabilities::complete() };
+        let (_, plan) = obscura::director::stage(&base, &scene, &capabilities).unwrap();
+        assert!(plan.volumes.iter().all(|volume| volume.silhouette == Backend::Cpu));
+        plan.notes.join("; ")
+    };
+    assert!(lacking(None).contains("INDIRECT_FIRST_INSTANCE"));
+    assert!(lacking(Some(64)).contains("too small"));
+    let mirrors = stock::build("barbershop").unwrap().unwrap();
+    stage.set_scene(&mirrors);
+    let mut virtual_lights = Settings { size: [160, 90], ..Settings::default() };
+    virtual_lights.mirrors.light = MirrorLight::Virtual;
+    assert!(assert_equal(&mut stage, &mirrors, &virtual_lights, "light off mirrors, some of it by the CPU") > 0);
+}
