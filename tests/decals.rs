@@ -191,6 +191,34 @@ fn blended_decals_darken_once() {
     assert!(overlap.first() < once.first(), "drawn over each other it darkens twice: {overlap:?} {once:?}");
 }
 
+/// A shadow over the markings, not only over the tarmac between them.
+#[test]
+fn blended_decals_lie_on_opaque_ones_too() {
+    let layers = [
+        Layer { emissive: [0.8, 0.0, 0.0], alpha: 1.0, at: vec![[[-5.0, -4.0], [0.0, 4.0]]] },
+        Layer { emissive: [0.0; 3], alpha: 0.5, at: vec![[[-3.0, -4.0], [3.0, 4.0]]] },
+    ];
+    let scene = scene(&layers, false);
+    let mut stage = Stage::new();
+    stage.set_scene(&scene);
+    let shot = stage.shoot(&settings(DecalMode::Stencil), &scene);
+    let camera = shot.plan.views[0].camera;
+    let mut values: [std::collections::BTreeSet<u8>; 4] = Default::default();
+    for (x, y, pixel) in shot.image.enumerate_pixels() {
+        let Some(at) = on_ground(&camera, x, y).filter(|at| at.z.abs() < 3.9) else { continue };
+        let [r, _, b, _] = pixel.0;
+        let zones = [-4.9..-3.1, -2.9..-0.1, 0.1..2.9, 5.1..9.0];
+        if let Some(zone) = zones.iter().position(|zone| zone.contains(&at.x))
+            && b <= r.saturating_add(40)
+        {
+            values[zone].insert(r);
+        }
+    }
+    assert!(values.iter().all(|values| values.len() == 1), "one value everywhere: {values:?}");
+    let [red, dark_red, dark, ground] = values.map(|values| values.first().copied().unwrap());
+    assert!(dark_red < red && dark < ground && dark < dark_red, "{red} {dark_red} {dark} {ground}");
+}
+
 fn plan(scene: &Scene, settings: &Settings) -> FramePlan {
     stage(settings, scene, &Capabilities::complete()).unwrap().1
 }
