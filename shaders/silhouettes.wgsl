@@ -1,13 +1,16 @@
 // Silhouettes and shadow volumes found on the device: facing, edges, and the indices of sides and caps, in the CPU's own
 // order and to its last decision (geometry/silhouette.rs, geometry/volume.rs); the counts go into indirect draws.
 //
-//   face       a triangle: +1, 0 or -1, or left open where the light sees it edge-on
-//   follow     what is open is decided by its neighbours
+//   face       a triangle: +1, 0 or -1, or left open where floats do not tell, or the light sees it edge-on
+//   follow     what is open is decided exactly, and what is edge-on by its neighbours
 //   pivot      the first edge of each silhouette, about which the dark cap is fanned
 //   tally      how much each block of edges and triangles adds
 //   scan       and so where each block's indices begin
 //   write      the indices
 //   arguments  of the draws
+//
+// A software GPU runs a branch that nobody takes, but leaves a loop as soon as all have: so what is seldom needed has a
+// list and a stage of its own, and loops that have nothing to do end before they begin.
 //
 // Jobs, blocks and the arenas are laid out by gpu/compute.rs and geometry/arena.rs.
 
@@ -29,7 +32,7 @@ struct Job {
     welded: u32,            // three each, as bits
     vertices: u32,          // how many; the extruded ones come after them
     facing: u32,
-    edge_on: u32,           // the list of what is open: triangle, and in the highest bits whom it follows
+    edge_on: u32,           // the list of what is open: triangle; of what is edge-on, in the highest bits whom it follows
     sides: u32,
     cap: u32,
     dark: u32,
@@ -86,9 +89,9 @@ fn counter(job: u32, which: u32) -> u32 {
     return atomicLoad(&counters[job * COUNTERS + which]);
 }
 
-// Where a block's two counters are.
+// Where a block's counters are: what it adds, and how much comes before that.
 fn block_counters(block: u32) -> u32 {
-    return entries[0].z * COUNTERS + block * 2u;
+    return entries[0].z * COUNTERS + block * 4u;
 }
 
 fn corner(job: Job, triangle: u32, which: u32) -> u32 {
@@ -138,21 +141,11 @@ fn face(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) la
         let narrow = bitcast<f32>(poses[at + 4u]);
         let threshold = max(bitcast<f32>(job.rounding) * span, narrow * bitcast<f32>(job.room));
         let least = select(threshold, 0.0, soup);
-        var faces = height > least;
-        var open = !soup && abs(height) < least;
         // Floats are off by some 2^-20 of the sum of all sizes, and by what the device takes for zero.
         let unsure = (span + threshold) * 7.62939453125e-6 + 1e-27;
-        if !(abs(abs(height) - least) > unsure) {
-            let exact = exactly(job, at);
-            if soup {
-                faces = !is_zero(exact.height) && !exact.height.negative;
-            } else {
-                faces = less(exact.least, exact.height);
-                open = less(absolute(exact.height), exact.least);
-            }
-        }
-        facing[job.facing + item] = select(select(0, -1, soup), 1, faces);
-        if open {
+        let clear = abs(abs(height) - least) > unsure;
+        facing[job.facing + item] = select(select(0, -1, soup), 1, height > least);
+        if !clear || (!soup && abs(height) < least) {
             facing[job.edge_on + atomicAdd(&counters[entry.x * COUNTERS + OPEN], 1u)] = i32(item);
         }
     }
@@ -218,14 +211,22 @@ fn follow(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) 
     let count = workgroupUniformLoad(&open_count);
     for (var at = lane; at < count; at += LANES) {
         let triangle = u32(atomicLoad(&facing_shared[job.edge_on + at]));
+        let soup = topology[job.triangles + triangle * 3u] >> 31u == 1u;
+        let exact = exactly(job, job.planes + triangle * 5u);
+        let above = !is_zero(exact.height) && !exact.height.negative;
+        let faces = select(less(exact.least, exact.height), above, soup);
+        let edge_on = !soup && less(absolute(exact.height), exact.least);
+        atomicStore(&facing_shared[job.facing + triangle], select(select(0, -1, soup), 1, faces));
         var follows = 0u;
-        for (var edge = 0u; edge < 3u; edge++) {
+        for (var edge = 0u; edge < select(0u, 3u, edge_on); edge++) {
             if topology[job.neighbours + triangle * 3u + edge] != NONE && is_towards(job, triangle, edge) {
                 follows |= 1u << (29u + edge);
             }
         }
         atomicStore(&facing_shared[job.edge_on + at], i32(triangle | follows));
     }
+    storageBarrier();
+    workgroupBarrier();
     // Nobody counts before all whom he follows do: in whatever order they are asked, the same come to count.
     loop {
         for (var at = lane; at < count; at += LANES) {
@@ -293,10 +294,8 @@ fn pivot(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) l
     }
     let entry = entries[1u + block];
     let job = jobs[entry.x];
-    if (job.flags & FAN) == 0u {
-        return;
-    }
-    for (var item = entry.z + lane; item < min(entry.z + LANES * EACH, edges_of(job, entry.y)); item += LANES) {
+    let end = select(0u, min(entry.z + LANES * EACH, edges_of(job, entry.y)), (job.flags & FAN) != 0u);
+    for (var item = entry.z + lane; item < end; item += LANES) {
         if edge_at(job, entry.y, item).count > 0u {
             let number = item + select(job.pair_count, 0u, entry.y == OF_PAIRS);
             atomicMax(&counters[entry.x * COUNTERS + PIVOT], NONE - number);
@@ -330,11 +329,12 @@ fn adds(job: Job, kind: u32, item: u32, about: u32) -> vec2u {
     return vec2u(edge.count, select(edge.count, 0u, about == NONE || edge.ends.x == about || edge.ends.y == about));
 }
 
+// How many items of a kind there are to look at.
 fn items_of(job: Job, kind: u32) -> u32 {
     if kind == OF_TRIANGLES {
-        return job.triangle_count;
+        return select(0u, job.triangle_count, (job.flags & (LIGHT_CAP | DARK_TRIANGLES)) != 0u);
     }
-    return edges_of(job, kind);
+    return select(0u, edges_of(job, kind), (job.flags & (SIDES | FAN)) != 0u);
 }
 
 var<workgroup> of_lanes: array<vec2u, LANES>;
@@ -395,8 +395,8 @@ fn scan(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) la
         for (var block = first; block < end; block++) {
             let at = block_counters(block);
             let own = vec2u(atomicLoad(&counters[at]), atomicLoad(&counters[at + 1u]));
-            atomicStore(&counters[at], begin.x);
-            atomicStore(&counters[at + 1u], begin.y);
+            atomicStore(&counters[at + 2u], begin.x);
+            atomicStore(&counters[at + 3u], begin.y);
             begin += own;
         }
         if lane == LANES - 1u {
@@ -460,15 +460,17 @@ fn write(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) l
     let entry = entries[1u + block];
     let job = jobs[entry.x];
     let about = pivot_of(entry.x, job);
+    let at = block_counters(block);
+    let any = atomicLoad(&counters[at]) + atomicLoad(&counters[at + 1u]) != 0u;
     let first = entry.z + lane * EACH;
-    let end = min(first + EACH, items_of(job, entry.y));
+    let end = select(0u, min(first + EACH, items_of(job, entry.y)), any);
     var sum = vec2u(0u);
     for (var item = first; item < end; item++) {
         sum += adds(job, entry.y, item, about);
     }
-    let at = block_counters(block);
-    var begin = before(lane, sum) + vec2u(atomicLoad(&counters[at]), atomicLoad(&counters[at + 1u]));
-    for (var item = first; item < end; item++) {
+    var begin = before(lane, sum) + vec2u(atomicLoad(&counters[at + 2u]), atomicLoad(&counters[at + 3u]));
+    let own_end = select(0u, end, sum.x + sum.y != 0u);
+    for (var item = first; item < own_end; item++) {
         if entry.y == OF_TRIANGLES {
             write_cap(job, entry.x, item, begin);
         } else {

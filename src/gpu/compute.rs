@@ -26,7 +26,7 @@ const BLOCK: u32 = 512;
 const LANES: u32 = 64;
 /// Workgroups in a row, where there are more than a dispatch may have.
 const ROW: u32 = 1 << 15;
-/// Words of a job's own counters, before two a block.
+/// Words of a job's own counters, before four a block.
 const COUNTERS: u32 = 8;
 /// Bytes of one draw's arguments.
 pub const ARGUMENTS: u64 = 20;
@@ -210,7 +210,7 @@ impl Compute {
         grown |= self.jobs.write(context, cast_slice(&self.job_data), size_of::<Job>());
         grown |= self.entries.write(context, cast_slice(&self.entry_data), 16);
         grown |= self.facing.reserve(context, u64::from(facing) * 4);
-        grown |= self.counters.reserve(context, (jobs * u64::from(COUNTERS) + u64::from(self.counts.blocks) * 2) * 4);
+        grown |= self.counters.reserve(context, (jobs * u64::from(COUNTERS) + u64::from(self.counts.blocks) * 4) * 4);
         grown |= self.indices.reserve(context, u64::from(indices) * 4);
         grown |= self.draws.reserve(context, u64::from(self.counts.slots) * ARGUMENTS);
         if grown {
