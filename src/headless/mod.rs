@@ -2,7 +2,7 @@
 //!
 //! - [`render`] draws one picture, [`tour`] all of them; [`save`](save_png) writes them whole or not at all;
 //! - [`verify`] holds what is drawn against exact rays, also on random views ([`wander`]);
-//! - [`bench`] measures frames, one by one, [`sweep`] how that grows, which [`plot`] draws;
+//! - [`mod@bench`] measures frames, one by one, [`sweep`] how that grows, which [`plot`] draws;
 //! - [`json`] is what `render --json` prints, [`catalog`] what `list` prints.
 
 pub mod bench;
