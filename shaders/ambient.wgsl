@@ -1,4 +1,5 @@
 #include "shared/frame.wgsl"
+#include "shared/material.wgsl"
 #include "shared/surface.wgsl"
 #include "shared/tone.wgsl"
 #include "shared/mirror.wgsl"
@@ -22,9 +23,9 @@ fn ambient_vertex(vertex: SurfaceVertex, @builtin(instance_index) object: u32) -
     var point: AmbientPoint;
     point.clip = surface.clip;
     point.uv = surface.uv;
-    point.ambient = vec4f(ambient_light(base, surface.normal.y) * exposure(), surface.color.a);
-    point.ambient_behind = ambient_light(base, -surface.normal.y) * exposure();
-    point.emitted = emitted_light() * exposure();
+    point.ambient = vec4f(ambient_light(material, base, surface.normal.y) * exposure(), surface.color.a);
+    point.ambient_behind = ambient_light(material, base, -surface.normal.y) * exposure();
+    point.emitted = emitted_light(material) * exposure();
     point.cutoff = material.cutoff;
     point.world = surface.world;
     point.normal = surface.normal;

@@ -1,4 +1,5 @@
 #include "shared/frame.wgsl"
+#include "shared/material.wgsl"
 #include "shared/surface.wgsl"
 
 struct DepthPoint {

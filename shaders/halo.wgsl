@@ -1,4 +1,5 @@
 #include "shared/frame.wgsl"
+#include "shared/material.wgsl"
 #include "shared/surface.wgsl"
 
 // How much nearer a halo is drawn than it is, in its own widths.

@@ -1,4 +1,5 @@
 #include "shared/frame.wgsl"
+#include "shared/material.wgsl"
 #include "shared/surface.wgsl"
 #include "shared/light.wgsl"
 #include "shared/tone.wgsl"
@@ -33,7 +34,7 @@ fn lit_vertex(vertex: SurfaceVertex, @builtin(instance_index) object: u32) -> Li
     let base = surface.color.rgb;
     // Unlit surfaces have their colour already.
     let intensity = draw.light.intensity * exposure() * (1.0 - material.unlit);
-    let finish = material_finish();
+    let finish = finish_of(material);
     var point: LitPoint;
     point.clip = surface.clip;
     point.normal = surface.normal;
@@ -41,12 +42,12 @@ fn lit_vertex(vertex: SurfaceVertex, @builtin(instance_index) object: u32) -> Li
     point.to_eye = frame.eye - surface.world;
     point.sin_bound = surface.sin_bound;
     point.uv = surface.uv;
-    point.ambient = ambient_light(base, surface.normal.y) * exposure();
-    point.ambient_behind = ambient_light(base, -surface.normal.y) * exposure();
+    point.ambient = ambient_light(material, base, surface.normal.y) * exposure();
+    point.ambient_behind = ambient_light(material, base, -surface.normal.y) * exposure();
     point.tint = base * intensity;
     let reach = light_reach(draw.light, point.to_light);
     point.along = reach.along;
-    point.emitted = emitted_light() * exposure();
+    point.emitted = emitted_light(material) * exposure();
     point.clear = intensity * finish.clear;
     point.finish = vec3f(finish.diffuse, finish.metal, finish.sharpness);
     point.reach = vec2f(reach.inverse_range_squared, reach.rim);

@@ -1,4 +1,5 @@
 #include "shared/frame.wgsl"
+#include "shared/material.wgsl"
 #include "shared/surface.wgsl"
 
 // Towards a lamp that stands nowhere in the scene: faces of one colour are told apart by their slope.

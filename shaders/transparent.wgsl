@@ -1,4 +1,5 @@
 #include "shared/frame.wgsl"
+#include "shared/material.wgsl"
 #include "shared/surface.wgsl"
 #include "shared/light.wgsl"
 
@@ -7,7 +8,7 @@ fn transparent(point: SurfacePoint, @builtin(front_facing) front: bool) -> @loca
     leave_out_behind_mirror(point.world);
     let base = base_color(point);
     let normal = seen_normal(point, front);
-    var color = ambient_light(base.rgb, normal.y) + emitted_light();
+    var color = ambient_light(material, base.rgb, normal.y) + emitted_light(material);
     if material.unlit < 0.5 {
         for (var i = 0u; i < frame.light_count; i++) {
             color += light_on_surface(lights[i], base.rgb, point, normal);
@@ -25,7 +26,7 @@ fn light_on_surface(light: Light, base: vec3f, point: SurfacePoint, normal: vec3
     if light.kind == PROJECTOR {
         share *= through_slide(light, to_light, length(to_eye));
     }
-    let finish = material_finish();
+    let finish = finish_of(material);
     let lobe = highlight(finish.sharpness, normal, to_light, to_eye);
     return share * (base * (finish.diffuse + finish.metal * lobe) + finish.clear * lobe);
 }

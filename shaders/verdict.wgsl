@@ -1,4 +1,5 @@
 #include "shared/frame.wgsl"
+#include "shared/material.wgsl"
 #include "shared/surface.wgsl"
 
 // One light's verdict: the step's constant, within the light's range. The stencil test has decided

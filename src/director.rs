@@ -6,6 +6,7 @@
 
 mod casters;
 mod decals;
+mod deferred;
 mod diagrams;
 mod dissolve;
 mod halos;
@@ -34,7 +35,7 @@ use crate::scene::pose::pose;
 use crate::scene::{Pose, Sampling, Scene};
 use crate::settings::{Accumulation, MAX_FRAMES, MirrorLight, Settings, Show, Technique, Texturing};
 use crate::techniques::cases::{self, Class};
-use crate::techniques::culling::{Interest, around};
+use crate::techniques::culling::Interest;
 use crate::techniques::decals::Decals;
 use crate::techniques::labels::Named;
 use crate::techniques::mirrors::{self, Mirrors};
@@ -260,7 +261,13 @@ pub fn plan(
             let transparent = surfaces::transparent(frame.known(), frame.view(), whole);
             let one_light = rounds.iter().map(|round| round.lights.len()).sum::<usize>() <= 1;
             let in_turn = darkens.is_none() && !frame.is_planar();
-            if one_light && in_turn && transparent.is_empty() && frame.may_draw_directly() {
+            let direct = in_turn && transparent.is_empty() && frame.may_draw_directly();
+            if frame.defers(&rounds, &groups, direct) {
+                frame.draw_deferred(rounds, &groups);
+                frame.label(Target::Direct);
+                return frame.plan;
+            }
+            if one_light && direct {
                 frame.draw_directly(rounds.pop(), &groups);
                 frame.label(Target::Direct);
                 return frame.plan;
@@ -483,9 +490,7 @@ impl<'a> Frame<'a> {
         for step in surfaces::depth(groups, budget.is_some(), whole) {
             self.push(Step { action: step.action.onto(Target::Direct), ..step });
         }
-        // Where no volume is drawn the count stays what it was.
-        let counted = round.steps.iter().filter_map(Step::scissor).reduce(around);
-        let scissor = counted.filter(|_| round.base == 0).unwrap_or(whole);
+        let scissor = round.counted_within().unwrap_or(whole);
         for step in round.steps {
             self.push(Step { action: step.action.onto(Target::Direct), ..step });
         }

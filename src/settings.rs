@@ -26,7 +26,7 @@ pub use decals::DecalMode;
 pub use diagram::Diagram;
 pub use dissolve::{Dissolve, Pattern};
 pub use halo::{Halos, MAX_HALO_WIDTH};
-pub use lighting::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
+pub use lighting::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Shading, Texturing};
 pub use mirrors::{LEAST_TEXTURE, LastBounce, MAX_BOUNCES, MOST_TEXTURE, MirrorLight, MirrorMode, Mirrors, SurfacePlace, toggle};
 pub use planar::{HybridPart, Planar, PlanarMode};
 pub use silhouettes::Backend;

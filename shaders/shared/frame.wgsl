@@ -15,6 +15,12 @@ struct Frame {
     _pad2: vec2f,
     clip_from_world: mat4x4f,   // for mismatched arithmetic only: see volume.wgsl
     clip_plane: vec4f,          // world space: under it nothing is seen, in views by way of a mirror
+    way_ahead: vec3f,           // unit: through the middle of the picture
+    near: f32,                  // metres; without a far plane a depth is the near plane's distance over the surface's
+    way_right: vec3f,           // from there to the right edge, one metre before the eye
+    _pad3: f32,
+    way_up: vec3f,              // and to the upper one
+    _pad4: f32,
 }
 
 struct Object {

@@ -2,6 +2,9 @@
 
 const PI: f32 = 3.14159265;
 
+// At least this rough, and without metal, there is no highlight: it would not be seen.
+const MATT: f32 = 0.9;
+
 // How a material throws light back: the same all over it.
 struct Finish {
     diffuse: f32,       // times the base colour
@@ -11,8 +14,8 @@ struct Finish {
 }
 
 // From the glTF roughness: Blinn-Phong, normalised, its lobe the Gaussian it nearly is.
-fn material_finish() -> Finish {
-    if !GLOSSY {
+fn finish_of(material: Material) -> Finish {
+    if !GLOSSY || (material.roughness >= MATT && material.metallic <= 0.0) {
         return Finish(1.0 / PI, 0.0, 0.0, 0.0);
     }
     let alpha = max(material.roughness * material.roughness, 0.04);

@@ -4,20 +4,9 @@
 // and its light have.
 
 override TEXTURED: bool = true;
-override GLOSSY: bool = true;
 override BOTH_SIDES: bool = true;
 // Reaches under the plane of the mirror it is seen in: what lies there is no reflection.
 override CLIPPED: bool = false;
-
-struct Material {
-    base_color: vec4f,          // linear, with alpha
-    emissive: vec3f,            // linear radiance
-    roughness: f32,
-    metallic: f32,
-    cutoff: f32,                // masked materials: below this alpha there is no surface
-    unlit: f32,                 // 1: shown in its base colour
-    _pad0: f32,
-}
 
 @group(1) @binding(0) var<uniform> material: Material;
 @group(1) @binding(1) var base_color_texture: texture_2d<f32>;
@@ -82,16 +71,4 @@ fn seen_normal(point: SurfacePoint, front: bool) -> vec3f {
         return select(-point.normal, point.normal, front);
     }
     return point.normal;
-}
-
-// Ambient light, which comes from all around, as a surface whose normal rises by `up` throws it back:
-// 1 looks up, -1 down. Unlit surfaces are bright by themselves.
-fn ambient_light(base: vec3f, up: f32) -> vec3f {
-    let ambient = mix(frame.ambient_ground, frame.ambient_sky, up * 0.5 + 0.5);
-    return select(base * ambient, base, material.unlit > 0.5) * frame.scale;
-}
-
-// What the material gives off by itself.
-fn emitted_light() -> vec3f {
-    return material.emissive * frame.scale;
 }

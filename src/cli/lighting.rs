@@ -5,7 +5,7 @@ use clap::Args;
 use super::command_line::Line;
 use super::input::InputError;
 use super::{by_name, names};
-use crate::settings::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Texturing};
+use crate::settings::{Accumulation, AreaMode, Lighting, MAX_AREA_SAMPLES, MAX_FRAMES, Shading, Texturing};
 
 /// What both the window and `render` understand of it.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -25,6 +25,8 @@ pub(super) struct LightingArguments {
     accumulation: Option<String>,
     #[arg(long, value_name = "T", help = format!("How often surfaces are textured: {}", names(Texturing::ALL.map(Texturing::name))))]
     texturing: Option<String>,
+    #[arg(long, value_name = "S", help = format!("Whether lights draw surfaces or pixels: {}", names(Shading::ALL.map(Shading::name))))]
+    shading: Option<String>,
     /// Writes the names of lights and of what casts shadows into the picture
     #[arg(long)]
     labels: bool,
@@ -45,6 +47,9 @@ impl LightingArguments {
         if let Some(name) = &self.texturing {
             lighting.texturing = by_name("texturing", name, Texturing::ALL, Texturing::name)?;
         }
+        if let Some(name) = &self.shading {
+            lighting.shading = by_name("shading", name, Shading::ALL, Shading::name)?;
+        }
         lighting.labels |= self.labels;
         Ok(())
     }
@@ -52,7 +57,7 @@ impl LightingArguments {
 
 /// The options that give `lighting` again.
 pub(super) fn write(lighting: &Lighting, line: &mut Line) {
-    let Lighting { area_samples, area_mode, light_sample, accumulate, accumulation, texturing, labels } = *lighting;
+    let Lighting { area_samples, area_mode, light_sample, accumulate, accumulation, texturing, shading, labels } = *lighting;
     let default = Lighting::default();
     let mut number = |name, value: u32, default| {
         if value != default {
@@ -70,6 +75,9 @@ pub(super) fn write(lighting: &Lighting, line: &mut Line) {
     }
     if texturing != default.texturing {
         line.option("--texturing", texturing.name());
+    }
+    if shading != default.shading {
+        line.option("--shading", shading.name());
     }
     if labels {
         line.word("--labels");

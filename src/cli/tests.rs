@@ -13,7 +13,7 @@ use crate::settings::{
     Accumulation, AreaMode, Backend, Board, CameraChoice, Complexity, Counting, Csg, Culling, DecalMode, Diagram, Dissolve,
     Failure, Halos, HybridPart, LEAST_TEXTURE, LastBounce, LightBounds, LightEdit, Lighting, MAX_AREA_SAMPLES, MAX_BOUNCES,
     MAX_COUNT_BITS, MAX_FRAMES, MAX_HALO_WIDTH, MOST_TEXTURE, MirrorLight, MirrorMode, Mirrors, Operation, Overflow, Pattern,
-    Planar, PlanarMode, Playground, Show, SlideChoice, SurfacePlace, Technique, Texturing, boards,
+    Planar, PlanarMode, Playground, Shading, Show, SlideChoice, SurfacePlace, Technique, Texturing, boards,
 };
 
 fn command(line: &str) -> Result<Command, InputError> {
@@ -51,7 +51,7 @@ fn every_argument_reaches_its_setting() {
          --eye -1,2.5,3e2 --target 0,0,-1 --fov 33.5 --far 7.5 --time 1.25 --animation 3 --floor --exposure -1.5 \
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --area-mode bits --light-sample 3 --accumulate 256 \
-         --accumulation 8-bit --texturing once --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on --silhouettes compute \
+         --accumulation 8-bit --texturing once --shading deferred --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on --silhouettes compute \
          --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --mirror-texture 77 --mirror-light virtual --least-pixels 25 --mirror 12=on --mirror 3:1=off \
          --dissolve parity --dissolve-pattern wipe --dissolve-amount 0.25 --dissolve-seconds 3 --halo 4 --halo 5=off --halo-color 0.5,0,1 --halo-width 2.5 --csg a-minus-b --csg-a 6 --csg-b 9 \
          --planar hybrid --hybrid planar --receiver 4=on --receiver 5:2=off \
@@ -97,6 +97,7 @@ fn every_argument_reaches_its_setting() {
             accumulate: 256,
             accumulation: Accumulation::EightBit,
             texturing: Texturing::Once,
+            shading: Shading::Deferred,
             labels: true,
         },
         culling: Culling { on: false, light_bounds: LightBounds::Sphere, caster_scissors: true, depth_bounds: true },
@@ -389,9 +390,10 @@ fn any_settings() -> impl Strategy<Value = Settings> {
         1..=MAX_FRAMES,
         prop::sample::select(&Accumulation::ALL[..]),
         prop::sample::select(&Texturing::ALL[..]),
+        prop::sample::select(&Shading::ALL[..]),
         any::<bool>(),
     )
-        .prop_flat_map(|(area_samples, area_mode, accumulate, accumulation, texturing, labels)| {
+        .prop_flat_map(|(area_samples, area_mode, accumulate, accumulation, texturing, shading, labels)| {
             (0..area_samples).prop_map(move |light_sample| Lighting {
                 area_samples,
                 area_mode,
@@ -399,6 +401,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
                 accumulate,
                 accumulation,
                 texturing,
+                shading,
                 labels,
             })
         });

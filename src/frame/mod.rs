@@ -27,6 +27,6 @@ pub const fn identity_color(number: u32) -> [u8; 3] {
 }
 
 pub use step::{
-    Action, Clear, Draw, DrawSet, Label, LabelKind, LightShape, Look, MirrorLook, Part, Program, Run, Step, Stroke, Surface,
-    Swollen, Target, VolumePart,
+    Action, Clear, Draw, DrawSet, Label, LabelKind, LightShape, Look, MirrorLook, Part, Program, Run, SHADED_TOGETHER, Shade,
+    Step, Stroke, Surface, Swollen, Target, VolumePart,
 };

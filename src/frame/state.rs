@@ -96,6 +96,8 @@ impl Depth {
     pub const NOT_NEARER: Self = Self::plain(Compare::LessEqual, false);
     /// What takes the place of whatever is there: a mirror's pixels before and after its reflection.
     pub const OVERWRITE: Self = Self::plain(Compare::Always, true);
+    /// Full-screen steps, which lie at infinity, where there is a surface.
+    pub const ANY_SURFACE: Self = Self::plain(Compare::Less, false);
     /// Full-screen steps, and whatever counts everywhere: depth has no say.
     pub const IGNORE: Self = Self::plain(Compare::Always, false);
 

@@ -133,7 +133,23 @@ pub struct Look {
     pub mirror: MirrorLook,
     /// Triangles are seen from behind alone: the surface is the inside of another solid.
     pub inside: bool,
+    /// What is shaded pixel by pixel.
+    pub shade: Shade,
 }
+
+/// Of [`Program::Shade`].
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub struct Shade {
+    /// The shapes of its lights; the step's constant has their numbers.
+    pub lights: [Option<LightShape>; SHADED_TOGETHER],
+    /// Each light is asked for its bit in [`Target::Lit`]; else the stencil says where they shine.
+    pub each: bool,
+    /// Some material has more than its base colour: it is read pixel by pixel.
+    pub materials: bool,
+}
+
+/// As many lights are shaded by one step at most.
+pub const SHADED_TOGETHER: usize = 4;
 
 /// How a surface reflects, without its numbers.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -190,6 +206,12 @@ pub enum Target {
     Counts,
     /// Depth and stencil of one layer of two solids put together ([`crate::techniques::csg`]), apart from the scene's.
     Solid,
+    /// What light needs to know of each pixel's surface, beside the scene's depth ([`crate::techniques::deferred`]).
+    Geometry,
+    /// A bit of each light, set where it shines on the surface; under the scene's depth and stencil. Zero at first.
+    Lit,
+    /// The picture itself, shaded from what [`Target::Geometry`] and [`Target::Lit`] hold; the scene's stencil is only read.
+    Shaded,
 }
 
 /// Which shaders a step runs; [`crate::gpu::shaders`] says where each is written.
@@ -286,6 +308,14 @@ pub enum Program {
     LayKept,
     /// Shadow volumes in the constant: their fill is counted so.
     VolumeFill,
+    /// Surfaces into [`Target::Geometry`].
+    Geometry,
+    /// The same, with fragments below the alpha cutoff left out.
+    GeometryMasked,
+    /// Full screen: a light's bit, the constant's red, into [`Target::Lit`].
+    MarkLit,
+    /// Full screen, before infinity: some lights, ambient and emitted light on what [`Target::Geometry`] holds.
+    Shade,
 }
 
 /// What a step draws, by number.

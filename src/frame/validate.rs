@@ -2,6 +2,7 @@
 //! it can be read instead of where it can only be seen.
 
 mod decals;
+mod deferred;
 mod fragments;
 mod halo;
 mod mirrors;
@@ -133,6 +134,8 @@ struct Progress {
     bounded: Option<usize>,
     /// Whose volumes the stencil counts, since it was cleared.
     counted: Option<usize>,
+    /// What pixels show is kept, and the bits of lights that were left.
+    geometry: Option<u8>,
     /// What has a halo is tagged, since the stencil was cleared.
     tagged: bool,
     /// How far the layer in a solid's own target is.
@@ -193,9 +196,10 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
             }
             return Ok(());
         }
-        Target::Scene | Target::Direct | Target::Counts if state.gathered => {
+        Target::Scene | Target::Direct | Target::Counts | Target::Geometry | Target::Lit | Target::Shaded if state.gathered => {
             return Err("it draws the scene after the frame joined the mean");
         }
+        Target::Geometry | Target::Lit | Target::Shaded => deferred::check(plan, draw, state)?,
         Target::Direct if plan.samples != 1 => return Err("the picture has one sample a pixel"),
         Target::Direct => state.direct = true,
         Target::Scene if state.output_begun || state.direct => return Err("it draws the scene after the picture has begun"),

@@ -71,6 +71,13 @@ pub const fn color_format(accumulation: Accumulation) -> wgpu::TextureFormat {
 /// The mean of many frames: one of a thousand must not be lost in it.
 pub const MEAN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
+/// What is kept of the surfaces that pixels show, packed by the shader: a software device pays several times as much for
+/// targets that it must convert to.
+pub const GEOMETRY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
+
+/// A bit of each light that shines on a pixel: sums of different powers of two, 255ths of one, are exact.
+pub const LIT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+
 /// Depth and stencil of the scene. Floats where the device has them: reverse-Z puts the far end near
 /// zero, where 24 fixed bits are coarse and surfaces a hair from a volume's face fall on its wrong side
 /// (measured against exact rays: 102 wrong pixels of a million became 1).

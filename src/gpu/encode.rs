@@ -47,6 +47,8 @@ struct Pass<'a> {
     clear: Clear,
     /// With each draw's number among the plan's draws.
     draws: Vec<(Place, &'a Draw)>,
+    /// No pass before it has its target.
+    first: bool,
     /// The view whose picture is kept in its texture afterwards.
     keeps: Option<usize>,
 }
@@ -133,24 +135,21 @@ fn passes(plan: &FramePlan) -> Vec<Pass<'_>> {
                 // The mean's and the picture's own passes clear nothing of the scene's, and the counts' no
                 // colour.
                 let elsewhere = match draw.target {
-                    Target::Scene | Target::Direct => false,
+                    Target::Scene | Target::Direct | Target::Geometry | Target::Lit | Target::Shaded => false,
                     Target::Mean | Target::Output | Target::Solid => true,
                     Target::Counts => pending.is_some_and(|clear| clear.color.is_some()),
                 };
                 if let Some(mut clear) = pending.take_if(|_| elsewhere) {
                     let counts = clear.counts.take_if(|_| draw.target == Target::Counts);
-                    passes.push(Pass { target: Target::Scene, clear, draws: Vec::new(), keeps: None });
+                    passes.push(Pass { target: Target::Scene, clear, draws: Vec::new(), first: false, keeps: None });
                     pending = counts.map(|counts| Clear { counts: Some(counts), ..KEEP });
                 }
                 let follows = |pass: &Pass<'_>| pass.target == draw.target && pass.keeps.is_none();
                 let joins = pending.is_none() && passes.last().is_some_and(follows);
                 if !joins {
-                    passes.push(Pass {
-                        target: draw.target,
-                        clear: pending.take().unwrap_or(KEEP),
-                        draws: Vec::new(),
-                        keeps: None,
-                    });
+                    let first = passes.iter().all(|pass| pass.target != draw.target);
+                    let clear = pending.take().unwrap_or(KEEP);
+                    passes.push(Pass { target: draw.target, clear, draws: Vec::new(), first, keeps: None });
                 }
                 if let Some(pass) = passes.last_mut() {
                     pass.draws.push((Place { view: step.view, number }, draw));
@@ -207,15 +206,53 @@ impl Encode<'_> {
                         resolve_target: self.targets.resolved.as_ref().filter(|_| resolve),
                         ops: wgpu::Operations { load: load(color), store },
                     })],
-                    depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                        view: &self.targets.depth_stencil,
-                        depth_ops: Some(wgpu::Operations { load: load(pass.clear.depth), store }),
-                        stencil_ops: Some(wgpu::Operations { load: load(pass.clear.stencil), store }),
-                    }),
+                    depth_stencil_attachment: Some(self.depth_stencil(&pass.clear)),
                     timestamp_writes,
                     ..Default::default()
                 })
             }
+            Target::Geometry => encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("geometry"),
+                color_attachments: &[self.targets.geometry.as_ref().map(|kept| wgpu::RenderPassColorAttachment {
+                    view: &kept.surface,
+                    depth_slice: None,
+                    resolve_target: None,
+                    // Where no surface is drawn nothing is read.
+                    ops: wgpu::Operations { load: wgpu::LoadOp::Load, store },
+                })],
+                depth_stencil_attachment: Some(self.depth_stencil(&pass.clear)),
+                timestamp_writes,
+                ..Default::default()
+            }),
+            Target::Lit => encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("lit"),
+                color_attachments: &[self.targets.geometry.as_ref().map(|kept| wgpu::RenderPassColorAttachment {
+                    view: &kept.lit,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations { load: load(pass.first.then_some(wgpu::Color::TRANSPARENT)), store },
+                })],
+                depth_stencil_attachment: Some(self.depth_stencil(&pass.clear)),
+                timestamp_writes,
+                ..Default::default()
+            }),
+            Target::Shaded => encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("shading"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: self.output,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations { load: wgpu::LoadOp::Load, store },
+                })],
+                // Depth is read as a texture, too: nothing may write it.
+                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                    view: &self.targets.depth_stencil,
+                    depth_ops: None,
+                    stencil_ops: None,
+                }),
+                timestamp_writes,
+                ..Default::default()
+            }),
             Target::Counts => encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("counts"),
                 color_attachments: &[self.targets.counts.as_ref().map(|counts| wgpu::RenderPassColorAttachment {
@@ -227,11 +264,7 @@ impl Encode<'_> {
                         store,
                     },
                 })],
-                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                    view: &self.targets.depth_stencil,
-                    depth_ops: Some(wgpu::Operations { load: load(pass.clear.depth), store }),
-                    stencil_ops: Some(wgpu::Operations { load: load(pass.clear.stencil), store }),
-                }),
+                depth_stencil_attachment: Some(self.depth_stencil(&pass.clear)),
                 timestamp_writes,
                 ..Default::default()
             }),
@@ -260,6 +293,16 @@ impl Encode<'_> {
                 timestamp_writes,
                 ..Default::default()
             }),
+        }
+    }
+
+    /// The scene's depth and stencil, cleared as a pass begins.
+    fn depth_stencil(&self, clear: &Clear) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+        let store = wgpu::StoreOp::Store;
+        wgpu::RenderPassDepthStencilAttachment {
+            view: &self.targets.depth_stencil,
+            depth_ops: Some(wgpu::Operations { load: load(clear.depth), store }),
+            stencil_ops: Some(wgpu::Operations { load: load(clear.stencil), store }),
         }
     }
 
@@ -307,6 +350,11 @@ impl Encode<'_> {
                     pass.set_bind_group(1, &solid.read, &[]);
                 }
                 match (reads(draw.program, draw.target), &self.targets.counts, self.mean(plan)) {
+                    (Reads::Geometry, ..) => {
+                        if let Some(kept) = &self.targets.geometry {
+                            pass.set_bind_group(1, &kept.read, &[]);
+                        }
+                    }
                     (Reads::Targets, _, None) => pass.set_bind_group(1, &self.targets.read, &[]),
                     (Reads::Targets, _, Some(mean)) if draw.target == Target::Mean => pass.set_bind_group(1, &mean.gather, &[]),
                     (Reads::Targets, _, Some(mean)) => pass.set_bind_group(1, &mean.read, &[]),

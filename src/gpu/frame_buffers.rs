@@ -594,6 +594,8 @@ fn frame(plan: &FramePlan, view: &View, scene: &Scene, pose: &Pose) -> Frame {
     #[expect(clippy::cast_precision_loss, reason = "pixels fit f32 exactly")]
     let size = view.picture.map(|side| side as f32);
     let more = Vec3::from(plan.reflections.ambient);
+    let camera = &view.camera;
+    let half_height = (camera.vertical_fov / 2.0).tan();
     Frame {
         eye: view.camera.eye.as_vec3().to_array(),
         exposure: plan.exposure / scale(plan),
@@ -604,11 +606,16 @@ fn frame(plan: &FramePlan, view: &View, scene: &Scene, pose: &Pose) -> Frame {
         light_count: u32::try_from(pose.lights.len()).unwrap_or(u32::MAX),
         background_top: scene.environment.background[0].to_array(),
         #[expect(clippy::cast_possible_truncation, reason = "the GPU works in f32")]
-        pixel: ((view.camera.vertical_fov / 2.0).tan() * 2.0 / f64::from(plan.size[1])) as f32,
+        pixel: (half_height * 2.0 / f64::from(plan.size[1])) as f32,
         background_bottom: scene.environment.background[1].to_array(),
         size,
         clip_from_world: view.camera.clip_from_world().as_mat4().to_cols_array_2d(),
         clip_plane: view.through.as_ref().map_or(Vec4::ZERO, Window::clip_plane).to_array(),
+        way_ahead: camera.forward.as_vec3().to_array(),
+        #[expect(clippy::cast_possible_truncation, reason = "the GPU works in f32")]
+        near: camera.near as f32,
+        way_right: (camera.forward.cross(camera.up) * half_height * camera.aspect).as_vec3().to_array(),
+        way_up: (camera.up * half_height).as_vec3().to_array(),
         ..Frame::default()
     }
 }

@@ -113,6 +113,10 @@ impl Renderer {
             return Err(GpuError::TooLarge(format!("it is out of memory: {error}")));
         }
         self.scene = Some(buffers?);
+        if let Some(targets) = &mut self.targets {
+            // It reads the materials of the scene before.
+            targets.geometry = None;
+        }
         self.frame.forget_scene();
         Ok(())
     }
@@ -148,6 +152,9 @@ impl Renderer {
         }
         if plan.draws().any(|(_, draw)| draw.target == Target::Solid) {
             targets.with_solid(context, &self.pipelines.solid_layouts);
+        }
+        if plan.draws().any(|(_, draw)| draw.target == Target::Geometry) {
+            targets.with_geometry(context, &self.pipelines.geometry_layout, &buffers.all_materials);
         }
         let kept: Vec<_> = plan.views.iter().filter(|view| view.texture.is_some()).map(|view| view.picture).collect();
         targets.with_reflections(context, &self.pipelines.reflection_layout, &kept);

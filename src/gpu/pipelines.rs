@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use super::context::{Context, GpuError, MEAN_FORMAT, color_format};
+use super::context::{Context, GEOMETRY_FORMAT, GpuError, LIT_FORMAT, MEAN_FORMAT, color_format};
 use super::shaders::{BANDS, Library, Override, Vertices, entry_of};
 use super::types::{Attributes, Draw, Frame, LabelVertex, Light, LineVertex, Material, Object, Volume};
 use crate::frame::state::{Blend, Compare, Cull, DepthBias, NearPlane, State, Winding};
 use crate::frame::stencil::{StencilFace, StencilOp};
-use crate::frame::{LightShape, Look, MirrorLook, Program, Target};
+use crate::frame::{LightShape, Look, MirrorLook, Program, SHADED_TOGETHER, Target};
 use crate::settings::Accumulation;
 
 /// Everything a pipeline depends on.
@@ -44,6 +44,8 @@ pub enum Reads {
     Solid,
     /// The same, several samples a pixel.
     SolidEach,
+    /// What was kept of the surfaces that pixels show.
+    Geometry,
 }
 
 /// What a program that is no surface's reads, drawing into `target`.
@@ -54,6 +56,7 @@ pub fn reads(program: Program, target: Target) -> Reads {
         Program::WideVerdictEach => Reads::CountsEach,
         Program::SolidMerge => Reads::Solid,
         Program::SolidMergeEach => Reads::SolidEach,
+        Program::Shade => Reads::Geometry,
         _ if matches!(target, Target::Mean | Target::Output) => Reads::Targets,
         _ => Reads::Nothing,
     }
@@ -73,6 +76,8 @@ pub struct Pipelines {
     pub counts_layouts: [wgpu::BindGroupLayout; 2],
     /// Group 1 of what reads a solid's own target, of one sample and of several.
     pub solid_layouts: [wgpu::BindGroupLayout; 2],
+    /// Group 1 of what shades pixels: depth, surfaces, the lights' bits, materials.
+    pub geometry_layout: wgpu::BindGroupLayout,
     /// Group 2 of mirrors with a texture: the texture, its sampler.
     pub reflection_layout: wgpu::BindGroupLayout,
     bare: wgpu::PipelineLayout,
@@ -81,6 +86,7 @@ pub struct Pipelines {
     kept: wgpu::PipelineLayout,
     picture: wgpu::PipelineLayout,
     labels: wgpu::PipelineLayout,
+    geometry: wgpu::PipelineLayout,
     counts: [wgpu::PipelineLayout; 2],
     solid: [wgpu::PipelineLayout; 2],
     modules: HashMap<&'static str, wgpu::ShaderModule>,
@@ -189,6 +195,24 @@ impl Pipelines {
             }
             layout("solid", &entries)
         });
+        let geometry_layout = layout(
+            "geometry",
+            &[
+                sampled(0, wgpu::TextureSampleType::Depth),
+                sampled(1, wgpu::TextureSampleType::Uint),
+                sampled(2, wgpu::TextureSampleType::Float { filterable: false }),
+                wgpu::BindGroupLayoutEntry {
+                    binding: 3,
+                    visibility: wgpu::ShaderStages::FRAGMENT,
+                    ty: wgpu::BindingType::Buffer {
+                        ty: wgpu::BufferBindingType::Storage { read_only: true },
+                        has_dynamic_offset: false,
+                        min_binding_size: None,
+                    },
+                    count: None,
+                },
+            ],
+        );
         let reflection_layout = layout(
             "reflection",
             &[
@@ -219,6 +243,8 @@ impl Pipelines {
             picture: pipeline_layout("picture", &[&frame_layout, &targets_layout]),
             labels: pipeline_layout("labels", &[&frame_layout, &labels_layout]),
             labels_layout,
+            geometry: pipeline_layout("geometry", &[&frame_layout, &geometry_layout]),
+            geometry_layout,
             counts: counts_layouts.each_ref().map(|counts| pipeline_layout("counts", &[&frame_layout, counts])),
             counts_layouts,
             solid: solid_layouts.each_ref().map(|solid| pipeline_layout("solid", &[&frame_layout, solid])),
@@ -304,25 +330,30 @@ impl Pipelines {
             (_, Reads::CountsEach) => &self.counts[1],
             (_, Reads::Solid) => &self.solid[0],
             (_, Reads::SolidEach) => &self.solid[1],
+            (_, Reads::Geometry) => &self.geometry,
             (_, Reads::Nothing) => &self.bare,
         };
-        let format = match key.target {
-            // A solid's own target has no colour: see below.
-            Target::Scene | Target::Solid => color_format(key.accumulation),
-            Target::Mean => MEAN_FORMAT,
-            Target::Direct | Target::Output => key.output,
-            Target::Counts => context.counts_format(),
+        let formats: &[_] = match key.target {
+            Target::Solid => &[],
+            Target::Scene => &[color_format(key.accumulation)],
+            Target::Mean => &[MEAN_FORMAT],
+            Target::Direct | Target::Shaded | Target::Output => &[key.output],
+            Target::Counts => &[context.counts_format()],
+            Target::Geometry => &[GEOMETRY_FORMAT],
+            Target::Lit => &[LIT_FORMAT],
         };
-        let targets = [Some(wgpu::ColorTargetState {
-            format,
-            blend: key.state.color.and_then(blend),
-            write_mask: if key.state.color.is_some() { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() },
-        })];
+        let color_target = |format: &wgpu::TextureFormat| {
+            Some(wgpu::ColorTargetState {
+                format: *format,
+                blend: key.state.color.and_then(blend),
+                write_mask: if key.state.color.is_some() { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() },
+            })
+        };
+        let targets: Vec<_> = formats.iter().map(color_target).collect();
         let constants = constants(entry.overrides, key);
         let compilation_options =
             || wgpu::PipelineCompilationOptions { constants: &constants, ..wgpu::PipelineCompilationOptions::default() };
-        let targets: &[_] = if key.target == Target::Solid { &[] } else { &targets };
-        let in_scene = matches!(key.target, Target::Scene | Target::Direct | Target::Counts | Target::Solid);
+        let in_scene = !matches!(key.target, Target::Mean | Target::Output);
         context.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(entry.fragment),
             layout: Some(layout),
@@ -356,7 +387,7 @@ impl Pipelines {
                 module,
                 entry_point: Some(entry.fragment),
                 compilation_options: compilation_options(),
-                targets,
+                targets: &targets,
             }),
             multiview_mask: None,
             cache: None,
@@ -366,19 +397,22 @@ impl Pipelines {
 
 /// The values of a program's overrides.
 fn constants(overrides: &[Override], Key { look, state, .. }: &Key) -> Vec<(&'static str, f64)> {
+    let kind = |light: LightShape| match light {
+        LightShape::Point => 0.0,
+        LightShape::Directional => 1.0,
+        LightShape::Spot => 2.0,
+        LightShape::Projector => 3.0,
+    };
+    const NO_LIGHT: f64 = 4.0;
+    const NAMES: [&str; SHADED_TOGETHER] = ["LIGHT_0", "LIGHT_1", "LIGHT_2", "LIGHT_3"];
     let value = |it: Override| match it {
         Override::Textured => ("TEXTURED", f64::from(u8::from(look.textured))),
         Override::Glossy => ("GLOSSY", f64::from(u8::from(look.glossy))),
         Override::BothSides => ("BOTH_SIDES", f64::from(u8::from(state.cull == Cull::None || look.inside))),
-        Override::LightKind => {
-            let kind = match look.light {
-                LightShape::Point => 0.0,
-                LightShape::Directional => 1.0,
-                LightShape::Spot => 2.0,
-                LightShape::Projector => 3.0,
-            };
-            ("LIGHT_KIND", kind)
-        }
+        Override::LightKind => ("LIGHT_KIND", kind(look.light)),
+        Override::EachKind(place) => (NAMES[place], look.shade.lights[place].map_or(NO_LIGHT, kind)),
+        Override::Each => ("EACH", f64::from(u8::from(look.shade.each))),
+        Override::Materials => ("MATERIALS", f64::from(u8::from(look.shade.materials))),
         Override::Bands => ("BANDS", f64::from(BANDS)),
         Override::Finished => ("FINISHED", f64::from(u8::from(look.finished))),
         Override::Clipped => ("CLIPPED", f64::from(u8::from(look.clipped))),

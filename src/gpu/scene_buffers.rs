@@ -4,7 +4,7 @@ use super::context::{Context, GpuError};
 use super::texture::{self, Samplers};
 use super::types::{Attributes, Material};
 use crate::geometry::outward;
-use crate::scene::{AlphaMode, DeformedMesh, Mesh, Node, Scene};
+use crate::scene::{self, AlphaMode, DeformedMesh, Mesh, Node, Scene};
 use bytemuck::cast_slice;
 use glam::Vec3;
 
@@ -21,6 +21,8 @@ pub struct SceneBuffers {
     pub deformed: Vec<Option<VertexBuffers>>,
     /// One per material.
     pub materials: Vec<wgpu::BindGroup>,
+    /// The numbers of all of them.
+    pub all_materials: wgpu::Buffer,
 }
 
 /// An instance of the scene that was set, found without a walk through its nodes.
@@ -64,6 +66,19 @@ struct Scratch {
     volume: Vec<[f32; 4]>,
 }
 
+fn described(number: usize, material: &scene::Material) -> Material {
+    Material {
+        base_color: material.base_color.to_array(),
+        emissive: material.emissive.to_array(),
+        roughness: material.roughness,
+        metallic: material.metallic,
+        cutoff: if let AlphaMode::Mask(cutoff) = material.alpha { cutoff } else { 0.0 },
+        unlit: f32::from(u8::from(material.unlit)),
+        #[expect(clippy::cast_precision_loss, reason = "f32 holds whole numbers to 16 million")]
+        number: number as f32,
+    }
+}
+
 impl SceneBuffers {
     /// Uploads a scene.
     ///
@@ -87,22 +102,23 @@ impl SceneBuffers {
             .collect();
         let textures: Vec<_> = scene.textures.iter().map(|texture| texture::upload(context, texture)).collect();
         let white = texture::white(context);
+        let values: Vec<_> = scene.materials.iter().enumerate().map(|(number, material)| described(number, material)).collect();
+        // A buffer must not be empty.
+        let stand_in = [Material::default()];
+        let all_materials = filled(
+            context,
+            "materials",
+            cast_slice(if values.is_empty() { &stand_in } else { &values }),
+            wgpu::BufferUsages::STORAGE,
+        );
         let materials = scene
             .materials
             .iter()
-            .map(|material| {
+            .zip(&values)
+            .map(|(material, values)| {
                 let image = material.base_color_texture.and_then(|index| scene.textures.get(index).zip(textures.get(index)));
                 let sampler = samplers.get(context, image.map(|(texture, _)| texture));
-                let values = Material {
-                    base_color: material.base_color.to_array(),
-                    emissive: material.emissive.to_array(),
-                    roughness: material.roughness,
-                    metallic: material.metallic,
-                    cutoff: if let AlphaMode::Mask(cutoff) = material.alpha { cutoff } else { 0.0 },
-                    unlit: f32::from(u8::from(material.unlit)),
-                    _pad: 0.0,
-                };
-                let uniform = filled(context, &material.name, bytemuck::bytes_of(&values), wgpu::BufferUsages::UNIFORM);
+                let uniform = filled(context, &material.name, bytemuck::bytes_of(values), wgpu::BufferUsages::UNIFORM);
                 context.device.create_bind_group(&wgpu::BindGroupDescriptor {
                     label: Some(&material.name),
                     layout,
@@ -120,7 +136,7 @@ impl SceneBuffers {
         let mesh_of = |node: &Node| node.mesh.unwrap_or(0);
         let shown: Vec<_> = scene.instances().map(|(index, node, _)| Shown { node: index, mesh: mesh_of(node) }).collect();
         let deformed = shown.iter().map(|_| None).collect();
-        Ok(Self { meshes, shown, deformed, materials })
+        Ok(Self { meshes, shown, deformed, materials, all_materials })
     }
 
     /// The vertices an instance shows now.

@@ -14,6 +14,7 @@ use crate::frame::Program;
 const EMBEDDED: &[(&str, &str)] = &[
     ("shared/frame.wgsl", include_str!("../../shaders/shared/frame.wgsl")),
     ("shared/surface.wgsl", include_str!("../../shaders/shared/surface.wgsl")),
+    ("shared/material.wgsl", include_str!("../../shaders/shared/material.wgsl")),
     ("shared/light.wgsl", include_str!("../../shaders/shared/light.wgsl")),
     ("shared/full_screen.wgsl", include_str!("../../shaders/shared/full_screen.wgsl")),
     ("shared/tone.wgsl", include_str!("../../shaders/shared/tone.wgsl")),
@@ -41,6 +42,8 @@ const EMBEDDED: &[(&str, &str)] = &[
     ("halo.wgsl", include_str!("../../shaders/halo.wgsl")),
     ("playground.wgsl", include_str!("../../shaders/playground.wgsl")),
     ("solid.wgsl", include_str!("../../shaders/solid.wgsl")),
+    ("geometry.wgsl", include_str!("../../shaders/geometry.wgsl")),
+    ("shade.wgsl", include_str!("../../shaders/shade.wgsl")),
     ("output.wgsl", include_str!("../../shaders/output.wgsl")),
     ("shared/double.wgsl", include_str!("../../shaders/shared/double.wgsl")),
     (COMPUTE, include_str!("../../shaders/silhouettes.wgsl")),
@@ -113,6 +116,12 @@ pub enum Override {
     Clipped,
     /// `MIRROR`: how the surface reflects.
     Mirror,
+    /// `LIGHT_0` to `LIGHT_3`: the shape of one of several lights.
+    EachKind(usize),
+    /// `EACH`: each light's bit is asked for.
+    Each,
+    /// `MATERIALS`: they are read pixel by pixel.
+    Materials,
 }
 
 const fn entry(
@@ -142,6 +151,18 @@ const LIT: &[Override] = &[
     Override::LightKind,
     Override::Finished,
     Override::Mirror,
+];
+
+/// What `shade.wgsl` declares.
+const SHADE: &[Override] = &[
+    Override::Glossy,
+    Override::Finished,
+    Override::EachKind(0),
+    Override::EachKind(1),
+    Override::EachKind(2),
+    Override::EachKind(3),
+    Override::Each,
+    Override::Materials,
 ];
 
 /// Every program, in the order of the enum.
@@ -191,6 +212,10 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::Pattern, "dissolve.wgsl", "full_screen_vertex", "pattern", Vertices::None, &[]),
     entry(Program::LayKept, "dissolve.wgsl", "full_screen_vertex", "lay_kept", Vertices::None, &[]),
     entry(Program::VolumeFill, "volume.wgsl", "volume_vertex", "projected", Vertices::Volume, &[]),
+    entry(Program::Geometry, "geometry.wgsl", "geometry_vertex", "geometry", Vertices::Surface, SURFACE),
+    entry(Program::GeometryMasked, "geometry.wgsl", "geometry_vertex", "geometry_masked", Vertices::Surface, SURFACE),
+    entry(Program::MarkLit, "shade.wgsl", "full_screen_vertex", "mark_lit", Vertices::None, &[]),
+    entry(Program::Shade, "shade.wgsl", "shade_vertex", "shade", Vertices::None, SHADE),
 ];
 
 /// The entry of a program.

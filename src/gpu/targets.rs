@@ -1,6 +1,6 @@
 //! What the scene is drawn into: made in one place, for a size and sample count.
 
-use super::context::{Context, GpuError, MEAN_FORMAT, color_format};
+use super::context::{Context, GEOMETRY_FORMAT, GpuError, LIT_FORMAT, MEAN_FORMAT, color_format};
 use crate::frame::FramePlan;
 use crate::settings::Accumulation;
 
@@ -59,6 +59,8 @@ pub struct Targets {
     pub counts: Option<Counts>,
     /// Made by [`Self::with_solid`] for the first plan that puts solids together.
     pub solid: Option<SolidTarget>,
+    /// Made by [`Self::with_geometry`] for the first plan that shades pixel by pixel.
+    pub geometry: Option<Geometry>,
     /// Made by [`Self::with_reflections`]: one for each view that goes into a texture.
     pub reflections: Vec<Reflection>,
 }
@@ -83,6 +85,16 @@ pub struct Counts {
     pub read: wgpu::BindGroup,
 }
 
+/// What is kept of the surfaces that pixels show, and which lights shine on them.
+pub struct Geometry {
+    /// What surfaces are drawn to.
+    pub surface: wgpu::TextureView,
+    /// The lights' bits.
+    pub lit: wgpu::TextureView,
+    /// What pixels are shaded by.
+    pub read: wgpu::BindGroup,
+}
+
 /// Depth and stencil of one layer of two solids put together.
 pub struct SolidTarget {
     /// What is drawn to.
@@ -102,8 +114,8 @@ impl Targets {
     pub fn new(context: &Context, layout: &wgpu::BindGroupLayout, shape: Shape) -> Result<Self, GpuError> {
         let Shape { size, samples, accumulation, gathers } = shape;
         let pixels = u64::from(size[0]) * u64::from(size[1]);
-        // Colour, depth with stencil, counts and a solid's own depth should they be needed, and means.
-        let bytes = pixels * (u64::from(samples) * (8 + 8 + 4 + 8) + 8 + if gathers { 32 } else { 0 });
+        // Colour, depth with stencil, counts, a solid's own depth and geometry should they be needed, and means.
+        let bytes = pixels * (u64::from(samples) * (8 + 8 + 4 + 8) + 8 + 17 + if gathers { 32 } else { 0 });
         if bytes > BUDGET {
             return Err(GpuError::TooLarge(format!(
                 "{} x {} pixels with {samples} samples need {} MiB of {} MiB",
@@ -174,6 +186,7 @@ impl Targets {
             means,
             counts: None,
             solid: None,
+            geometry: None,
         })
     }
 
@@ -226,6 +239,31 @@ impl Targets {
             entries: &[entry(0), entry(1)],
         });
         self.solid = Some(SolidTarget { depth_stencil: texture.create_view(&Default::default()), read });
+    }
+
+    /// Makes what pixels are shaded from where it is not there yet; all `materials` are read with it.
+    pub fn with_geometry(&mut self, context: &Context, layout: &wgpu::BindGroupLayout, materials: &wgpu::Buffer) {
+        if self.geometry.is_some() {
+            return;
+        }
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        let make = |label, format| texture(context, label, self.shape.size, 1, format, usage).create_view(&Default::default());
+        let (surface, lit) = (make("surfaces", GEOMETRY_FORMAT), make("lit", LIT_FORMAT));
+        let depth = self
+            .depth_stencil_texture
+            .create_view(&wgpu::TextureViewDescriptor { aspect: wgpu::TextureAspect::DepthOnly, ..Default::default() });
+        let entry = |binding, view| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
+        let read = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("geometry"),
+            layout,
+            entries: &[
+                entry(0, &depth),
+                entry(1, &surface),
+                entry(2, &lit),
+                wgpu::BindGroupEntry { binding: 3, resource: materials.as_entire_binding() },
+            ],
+        });
+        self.geometry = Some(Geometry { surface, lit, read });
     }
 
     /// Makes the counts' target where it is not there yet; `layouts` are those of one sample and of

@@ -35,6 +35,18 @@ pub struct Frame {
     pub clip_from_world: [[f32; 4]; 4],
     /// World space: nothing under it is drawn by what asks. Of views by way of a mirror.
     pub clip_plane: [f32; 4],
+    /// Unit: through the middle of the picture.
+    pub way_ahead: [f32; 3],
+    /// Metres.
+    pub near: f32,
+    /// From there to the right edge, one metre before the eye.
+    pub way_right: [f32; 3],
+    #[doc(hidden)]
+    pub _pad3: f32,
+    /// And to the upper edge.
+    pub way_up: [f32; 3],
+    #[doc(hidden)]
+    pub _pad4: f32,
 }
 
 /// `struct Object` of `shared/frame.wgsl`; matrices by columns.
@@ -152,8 +164,8 @@ pub struct Material {
     pub cutoff: f32,
     /// 1 or 0.
     pub unlit: f32,
-    #[doc(hidden)]
-    pub _pad: f32,
+    /// Among the scene's materials.
+    pub number: f32,
 }
 
 /// What a surface vertex has beside its position, interleaved.

@@ -19,6 +19,8 @@ pub struct Lighting {
     pub accumulation: Accumulation,
     /// How often surfaces are textured.
     pub texturing: Texturing,
+    /// Whether lights draw surfaces, or pixels.
+    pub shading: Shading,
     /// Names of lights and of what casts shadows, at their places in the picture.
     pub labels: bool,
 }
@@ -39,6 +41,7 @@ impl Default for Lighting {
             accumulate: 1,
             accumulation: Accumulation::default(),
             texturing: Texturing::default(),
+            shading: Shading::default(),
             labels: false,
         }
     }
@@ -144,6 +147,44 @@ impl Texturing {
         match self {
             Self::EachLight => "every light reads the texture of every surface it reaches",
             Self::Once => "the texture multiplies the sum of all lights: the same on matt surfaces, tinted highlights on others",
+        }
+    }
+}
+
+/// Whether lights draw the surfaces they shine on, or the pixels that show them.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Shading {
+    /// The cheaper of the two, by how many triangles and lights there are.
+    #[default]
+    Auto,
+    /// As the papers do: every light draws its surfaces again.
+    Forward,
+    /// Surfaces are drawn once, and what light needs to know of them is kept ([`crate::techniques::deferred`]).
+    Deferred,
+}
+
+impl Shading {
+    /// Every one, in the order people see them.
+    pub const ALL: [Self; 3] = [Self::Auto, Self::Forward, Self::Deferred];
+
+    /// The name on the command line and in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Forward => "forward",
+            Self::Deferred => "deferred",
+        }
+    }
+
+    /// One sentence for help and panel.
+    #[must_use]
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Auto => "the cheaper of the two, by how many triangles and lights there are",
+            Self::Forward => "every light draws the surfaces it shines on again, as the papers do",
+            Self::Deferred => "surfaces are drawn once; depth, normal and base colour are kept, and lights draw pixels",
         }
     }
 }

@@ -20,6 +20,7 @@ pub mod csg;
 pub mod culling;
 mod cutout;
 pub mod decals;
+pub mod deferred;
 pub mod depth_bounds;
 pub mod diagram;
 mod exact_z_pass;

@@ -26,6 +26,7 @@
 
 use super::Row;
 use super::counting::{Ask, Caster, LightCount, count_light, full_screen};
+use super::culling::around;
 use super::overflow::{self, Way};
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{Program, Step, VolumePlan};
@@ -70,6 +71,13 @@ impl Round {
         let shadowed = count.base != 0 || !count.steps.is_empty();
         let budget = shadowed.then_some(count.budget);
         Self { base: count.base, steps: count.steps, lights: vec![Shining { light, rect, budget }] }
+    }
+
+    /// The pixels in which the count may differ from zero; `None` where that is everywhere.
+    #[must_use]
+    pub fn counted_within(&self) -> Option<[u32; 4]> {
+        // Where no volume is drawn the count stays what it was.
+        self.steps.iter().filter_map(Step::scissor).reduce(around).filter(|_| self.base == 0)
     }
 }
 

@@ -5,7 +5,7 @@ use egui::Ui;
 use super::style::{explain, field, slider};
 use super::technique::capital;
 use super::{Desk, View, style};
-use crate::settings::{Accumulation, MAX_FRAMES, Texturing};
+use crate::settings::{Accumulation, MAX_FRAMES, Shading, Texturing};
 
 /// All of it.
 pub fn gather(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
@@ -31,6 +31,15 @@ pub fn gather(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
             let response = ui.selectable_label(lighting.accumulation == accumulation, words);
             if response.on_hover_text(format!("{}.", capital(accumulation.about()))).clicked() {
                 lighting.accumulation = accumulation;
+            }
+        }
+    });
+    ui.horizontal(|ui| {
+        ui.label(egui::RichText::new("Shading").color(style::WEAK));
+        for shading in Shading::ALL {
+            let response = ui.selectable_label(lighting.shading == shading, capital(shading.name()));
+            if response.on_hover_text(format!("{}.", capital(shading.about()))).clicked() {
+                lighting.shading = shading;
             }
         }
     });

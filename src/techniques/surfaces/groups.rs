@@ -195,7 +195,7 @@ impl SurfaceGroup {
     }
 
     /// How depth is tested where it is drawn first.
-    pub(super) fn first_depth(&self) -> Depth {
+    pub(in crate::techniques) fn first_depth(&self) -> Depth {
         (if self.kind.laid { Depth::SAME_SURFACE } else { Depth::LAY }).with_bias(self.bias())
     }
 

@@ -1,0 +1,54 @@
+//! Rules of what is shaded pixel by pixel ([`crate::techniques::deferred`]).
+
+use super::Progress;
+use crate::frame::plan::FramePlan;
+use crate::frame::state::Depth;
+use crate::frame::step::{Draw, DrawSet, Program, Target};
+
+/// Checks a draw that keeps surfaces, marks where a light shines, or shades.
+pub(super) fn check(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(), &'static str> {
+    if plan.samples != 1 {
+        return Err("what is kept of surfaces has one sample a pixel");
+    }
+    let writes_stencil = draw.state.stencil.writes();
+    match draw.target {
+        Target::Geometry => {
+            let keeps = matches!(draw.program, Program::Geometry | Program::GeometryMasked);
+            if !keeps || !draw.state.depth.write || !matches!(draw.set, DrawSet::Surfaces(_)) || writes_stencil {
+                return Err("surfaces are kept with their depth, and nothing else is");
+            }
+            if state.counting || state.direct {
+                return Err("it keeps surfaces after counting began: the count would belong to another");
+            }
+            // Every pixel is shaded in the end, or filled with the background.
+            state.color_set = true;
+            state.geometry = Some(0);
+        }
+        Target::Lit => {
+            let bit = draw.constant[0] * 255.0;
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is asked whether it is one")]
+            let whole = bit.round() as u8;
+            let marked = state.geometry.ok_or("it marks surfaces that were not kept")?;
+            if draw.program != Program::MarkLit || writes_stencil || (bit - f32::from(whole)).abs() > 1e-3 {
+                return Err("lights leave a bit each where they shine, and nothing else");
+            }
+            if !whole.is_power_of_two() || marked & whole != 0 {
+                return Err("a light's bit is one that no other light has left");
+            }
+            state.geometry = Some(marked | whole);
+        }
+        _ => {
+            let marked = state.geometry.ok_or("it shades surfaces that were not kept")?;
+            if draw.program != Program::Shade || writes_stencil || draw.state.depth != Depth::ANY_SURFACE {
+                return Err("pixels are shaded where a surface is, and neither depth nor stencil is written");
+            }
+            let shade = draw.look.shade;
+            let asked = shade.lights.iter().filter(|light| light.is_some()).count();
+            if shade.each && marked.count_ones() as usize != asked {
+                return Err("it asks for bits of lights that left none");
+            }
+            state.direct = true;
+        }
+    }
+    Ok(())
+}
