@@ -1,5 +1,5 @@
 //! The README names everything there is, and nothing that is not there.
-#![allow(clippy::unwrap_used)] // a test may stop where it stands
+#![allow(clippy::unwrap_used, clippy::panic)] // a test may stop where it stands
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -8,7 +8,7 @@ use std::process::Command;
 use obscura::app::keys;
 use obscura::failures;
 use obscura::headless::catalog::Catalog;
-use obscura::headless::read_command;
+use obscura::headless::{plot, read_command};
 
 const README: &str = include_str!("../README.md");
 
@@ -81,17 +81,24 @@ fn every_option_is_listed_and_no_other() {
 
 #[test]
 fn every_picture_is_there_small_and_drawn_by_the_program() {
-    let mut total = 0;
+    let (mut total, mut plots) = (0, 0);
     let links: Vec<_> = README.split("](").skip(1).filter_map(|rest| rest.split(')').next()).collect();
     for link in links.into_iter().filter(|link| !link.starts_with("http")) {
         let path = root().join(link);
         assert!(path.is_file(), "{link} is not there");
         if link.ends_with(".png") {
-            assert!(read_command(&path).unwrap().unwrap().starts_with("obscura render "), "{link}");
-            // Two in a row, or three.
-            assert!([(640, 360), (480, 270)].contains(&image::image_dimensions(&path).unwrap()), "{link}");
-            total += path.metadata().unwrap().len();
+            let command = read_command(&path).unwrap().unwrap();
+            let size = image::image_dimensions(&path).unwrap();
+            // Pictures are two in a row, or three.
+            let (sizes, sum) = match command.split(' ').nth(1) {
+                Some("render") => ([(640, 360), (480, 270)], &mut total),
+                Some("bench") => ([plot::SIZE.into(); 2], &mut plots),
+                _ => panic!("{link}: {command}"),
+            };
+            assert!(sizes.contains(&size), "{link}");
+            *sum += path.metadata().unwrap().len();
         }
     }
     assert!(total > 0 && total < 2_200_000, "{total} bytes of pictures");
+    assert!(plots > 0 && plots < 300_000, "{plots} bytes of plots");
 }

@@ -8,7 +8,7 @@ use plotters::coord::Shift;
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::prelude::{
     BitMapBackend, ChartBuilder, Color as _, DashedLineSeries, DrawingArea, DrawingAreaErrorKind, FontStyle,
-    IntoDrawingArea as _, IntoFont as _, LineSeries, PathElement, RGBColor, SeriesLabelPosition, WHITE,
+    IntoDrawingArea as _, IntoFont as _, LineSeries, PathElement, RGBColor, ShapeStyle, TextStyle, WHITE,
 };
 use plotters::style::register_font;
 
@@ -78,9 +78,11 @@ impl Plot {
         let x = Axis::over(xs.iter().copied(), 1.06, xs.clone());
         let ys: Vec<f64> = points().map(|point| point[1]).collect();
         let y = Axis::over(ys.iter().copied(), 1.3, (-20..=30).map(|power| 2f64.powi(power)).collect());
+        area.draw_text(&self.title, &style(23.0), (TEXT_FROM, 12))?;
+        self.draw_legend(area, &style(18.0))?;
         let mut chart = ChartBuilder::on(area)
-            .caption(&self.title, style(23.0))
             .margin(14)
+            .margin_top(76)
             .margin_right(28)
             .x_label_area_size(48)
             .y_label_area_size(66)
@@ -100,30 +102,42 @@ impl Plot {
             .axis_desc_style(style(18.0))
             .draw()?;
         for curve in &self.curves {
-            let [red, green, blue] = curve.color;
-            let color = RGBColor(red, green, blue);
             let points = curve.points.iter().filter(|point| point.iter().all(|v| *v > 0.0)).map(|point| (point[0], point[1]));
-            let line = color.stroke_width(if curve.dashed { 1 } else { 3 }).filled();
-            let drawn = if curve.dashed {
-                chart.draw_series(DashedLineSeries::new(points, 5, 4, line))?
+            if curve.dashed {
+                chart.draw_series(DashedLineSeries::new(points, 5, 4, curve.style()))?;
             } else {
-                chart.draw_series(LineSeries::new(points, line).point_size(4))?
-            };
-            if !curve.name.is_empty() {
-                let sample = move |(x, y)| PathElement::new([(x, y), (x + 26, y)], line);
-                drawn.label(curve.name.as_str()).legend(sample);
+                chart.draw_series(LineSeries::new(points, curve.style()).point_size(4))?;
             }
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperLeft)
-            .background_style(WHITE.mix(0.85))
-            .border_style(GRID)
-            .legend_area_size(34)
-            .label_font(style(17.0))
-            .draw()
+        Ok(())
+    }
+
+    /// The curves' names in a row between title and chart, where no curve can be.
+    fn draw_legend(
+        &self,
+        area: &DrawingArea<BitMapBackend<'_>, Shift>,
+        style: &TextStyle<'_>,
+    ) -> Result<(), DrawingAreaErrorKind<BitmapError>> {
+        let (mut x, y) = (TEXT_FROM, 54);
+        for curve in self.curves.iter().filter(|curve| !curve.name.is_empty()) {
+            area.draw(&PathElement::new([(x, y), (x + 26, y)], curve.style()))?;
+            let (width, height) = area.estimate_text_size(&curve.name, style)?;
+            area.draw_text(&curve.name, style, (x + 33, y - i32::try_from(height).unwrap_or(0) / 2))?;
+            x += 33 + i32::try_from(width).unwrap_or(0) + 26;
+        }
+        Ok(())
     }
 }
+
+impl Curve {
+    fn style(&self) -> ShapeStyle {
+        let [red, green, blue] = self.color;
+        RGBColor(red, green, blue).stroke_width(if self.dashed { 1 } else { 3 }).filled()
+    }
+}
+
+/// Pixels from the left: where the chart begins.
+const TEXT_FROM: i32 = 80;
 
 type BitmapError = <BitMapBackend<'static> as plotters::prelude::DrawingBackend>::ErrorType;
 
@@ -200,9 +214,9 @@ mod tests {
         let count = |color: [u8; 3]| picture.pixels().filter(|pixel| pixel.0[..3] == color).count();
         assert!(count([200, 0, 0]) > 500 && count([0, 0, 200]) > 100, "both curves");
         // The title's letters, above the chart.
-        assert!((0..34).any(|y| (300..660).any(|x| picture.get_pixel(x, y).0[0] < 0x80)));
+        assert!((10..40).any(|y| (80..300).any(|x| picture.get_pixel(x, y).0[0] < 0x80)));
         // What grows in proportion climbs all the way.
-        let rows = |x: u32| (40..480).rfind(|&y| picture.get_pixel(x, y).0[..3] == [200, 0, 0]);
+        let rows = |x: u32| (76..480).rfind(|&y| picture.get_pixel(x, y).0[..3] == [200, 0, 0]);
         assert!(rows(140) > rows(500) && rows(500) > rows(880));
     }
 
