@@ -157,3 +157,62 @@ fn what_the_shader_does_not_build_is_said() {
     virtual_lights.mirrors.light = MirrorLight::Virtual;
     assert!(assert_equal(&mut stage, &mirrors, &virtual_lights, "light off mirrors, some of it by the CPU") > 0);
 }
+
+/// A slab whose top, at y = 1, is a grid of triangles of all sizes.
+fn uneven_slab(side: u32) -> Scene {
+    let across = side + 1;
+    let at = |x: u32, z: u32, top: u32| (top * across + z) * across + x;
+    let mut random = fastrand::Rng::with_seed(3);
+    let mut jitter = |step: u32| step as f32 * 10.0 + if step == 0 || step == side { 0.0 } else { random.f32() * 4.0 };
+    let mut positions = Vec::new();
+    for (top, z, x) in (0..2).flat_map(|top| (0..across).flat_map(move |z| (0..across).map(move |x| (top, z, x)))) {
+        positions.push([jitter(x), top as f32, jitter(z)]);
+    }
+    let mut triangles = Vec::new();
+    for (x, z) in (0..side).flat_map(|z| (0..side).map(move |x| (x, z))) {
+        for top in [0, 1] {
+            let [a, b, c, d] = [at(x, z, top), at(x, z + 1, top), at(x + 1, z + 1, top), at(x + 1, z, top)];
+            triangles.extend(if top == 1 { [[a, b, c], [a, c, d]] } else { [[a, c, b], [a, d, c]] });
+        }
+    }
+    for along in 0..side {
+        let walls = [
+            [at(along, 0, 0), at(along, 0, 1), at(along + 1, 0, 1), at(along + 1, 0, 0)],
+            [at(along + 1, side, 0), at(along + 1, side, 1), at(along, side, 1), at(along, side, 0)],
+            [at(0, along + 1, 0), at(0, along + 1, 1), at(0, along, 1), at(0, along, 0)],
+            [at(side, along, 0), at(side, along, 1), at(side, along + 1, 1), at(side, along + 1, 0)],
+        ];
+        triangles.extend(walls.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]));
+    }
+    let mut build = Build::new();
+    let slab = build.mesh(mesh("slab", &positions, &triangles, 0));
+    build.place(slab, DVec3::ZERO, DVec3::ONE);
+    build.point_light(DVec3::ZERO);
+    build.0
+}
+
+#[test]
+fn triangles_that_rounding_decides_are_decided_by_the_same_rounding() {
+    let mut stage = Stage::new();
+    let scene = uneven_slab(40);
+    stage.set_scene(&scene);
+    // As far over the top's plane as makes it edge-on or not by the last bit: 2^-16 of the coordinates' sum.
+    let height = 1.0 + 201.0 / 65536.0;
+    let mut caps = Vec::new();
+    for y in [height, f64::from(f32::next_up(height as f32)), f64::from(f32::next_down(height as f32))] {
+        let edit = LightEdit { position: Some(DVec3::new(-1.0, y, 200.0)), ..LightEdit::default() };
+        let mut settings = Settings {
+            technique: Technique::ZFail,
+            show: Show::Stencil,
+            lights: [(0, edit)].into(),
+            ..seen_from(DVec3::new(-60.0, 90.0, 100.0), DVec3::new(150.0, 0.0, 150.0), [64, 36])
+        };
+        settings.culling.on = false;
+        assert!(assert_equal(&mut stage, &scene, &settings, &format!("light at height {y}")) > 0);
+        let shot = stage.shoot(&settings, &scene);
+        let parts = volume_parts(&stage.context, &stage.renderer, &shot.plan).unwrap();
+        let cap = parts.iter().find(|(part, _)| part.part == Part::LightCapKept).map_or(0, |(_, indices)| indices.len() / 3);
+        caps.push(cap);
+    }
+    assert!(caps.iter().any(|cap| *cap != caps[0]), "a last bit says nothing: {caps:?}");
+}
