@@ -9,7 +9,7 @@ use bytemuck::cast_slice;
 use glam::Vec4;
 
 use super::context::Context;
-use super::frame_buffers::Growing;
+use super::growing::Growing;
 use super::pipelines::Pipelines;
 use super::scene_buffers::Shown;
 use super::shaders::{COMPUTE, STAGES};

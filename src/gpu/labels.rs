@@ -10,7 +10,7 @@ use egui::epaint::text::{Fonts, LayoutJob, TextOptions};
 use egui::{Color32, FontDefinitions, FontId};
 
 use super::context::Context;
-use super::frame_buffers::Growing;
+use super::growing::Growing;
 use super::types::LabelVertex;
 use crate::frame::{DrawSet, FramePlan, Label, LabelKind};
 

@@ -6,7 +6,7 @@ use egui::epaint::{Mesh, PathShape, PathStroke, TessellationOptions, Tessellator
 use egui::{Color32, Pos2};
 
 use super::context::Context;
-use super::frame_buffers::Growing;
+use super::growing::Growing;
 use super::types::LineVertex;
 use crate::frame::{DrawSet, FramePlan, Stroke};
 

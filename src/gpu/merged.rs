@@ -11,7 +11,7 @@ use bytemuck::cast_slice;
 use glam::Vec3;
 
 use super::context::Context;
-use super::frame_buffers::Growing;
+use super::growing::Growing;
 use crate::frame::VolumePart;
 
 /// Welded vertices of the largest caster that counts as small.

@@ -8,6 +8,7 @@ pub mod context;
 mod cutouts;
 mod encode;
 mod frame_buffers;
+mod growing;
 mod kept;
 mod labels;
 mod lines;
@@ -22,6 +23,7 @@ mod targets;
 mod texture;
 mod timing;
 pub mod types;
+mod uniforms;
 
 use std::path::Path;
 use std::time::Instant;
