@@ -10,7 +10,7 @@ use obscura::director::stage;
 use obscura::frame::validate::validate;
 use obscura::frame::{Action, Capabilities, DrawSet, FramePlan, Program, identity_color};
 use obscura::scene::{Material, Reflective, Scene, stock};
-use obscura::settings::{Settings, Show};
+use obscura::settings::{Settings, Shading, Show};
 
 const SIZE: [u32; 2] = [240, 160];
 /// As [`obscura::frame::stencil`] has it: what has a halo, and how often a pixel glows.
@@ -34,6 +34,8 @@ fn ring_and_cube() -> (Scene, Settings) {
     let mut settings = seen_from(DVec3::new(0.0, 1.2, 2.2), DVec3::new(0.2, 0.0, 0.0), SIZE);
     settings.halos.edits = [(0, true), (1, true)].into();
     settings.halos.width = 6.0;
+    // What has halos is drawn forward: so is what it is compared with.
+    settings.lighting.shading = Shading::Forward;
     (build.0, settings)
 }
 

@@ -12,7 +12,9 @@ use obscura::frame::validate::validate;
 use obscura::frame::{Action, Capabilities, Draw, DrawSet, Gather, Label, Program, Target};
 use obscura::gpu::readback;
 use obscura::scene::{Environment, Extent, LightKind, Scene, Texture, Wrap};
-use obscura::settings::{Accumulation, AreaMode, LightEdit, Lighting, Settings, Show, SlideChoice, Technique, Texturing};
+use obscura::settings::{
+    Accumulation, AreaMode, LightEdit, Lighting, Settings, Shading, Show, SlideChoice, Technique, Texturing,
+};
 
 const SIZE: [u32; 2] = [160, 160];
 
@@ -330,7 +332,10 @@ fn textured(roughness: f32) -> (Scene, Settings) {
     build.point_light(DVec3::new(-2.0, 4.0, -3.0));
     build.point_light(DVec3::new(3.0, 5.0, -2.0));
     build.0.exposure = 0.4;
-    (build.0, seen_from(DVec3::new(0.0, 5.0, 9.0), DVec3::ZERO, SIZE))
+    let mut settings = seen_from(DVec3::new(0.0, 5.0, 9.0), DVec3::ZERO, SIZE);
+    // Shaded pixel by pixel, textures are read once in any case.
+    settings.lighting.shading = Shading::Forward;
+    (build.0, settings)
 }
 
 /// M section 8: on matt surfaces the sum of all lights times the texture is the sum of each times the

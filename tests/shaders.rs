@@ -109,7 +109,11 @@ fn shared_structs_have_the_same_layout() {
             scale,
             size,
             clip_from_world,
-            clip_plane
+            clip_plane,
+            way_ahead,
+            near,
+            way_right,
+            way_up
         ]
     );
     same_layout!("lit.wgsl", "Object", types::Object, [clip_from_object, world_from_object, normal_from_object]);
@@ -165,7 +169,7 @@ fn shared_structs_have_the_same_layout() {
             edge_blocks
         ]
     );
-    same_layout!("lit.wgsl", "Material", types::Material, [base_color, emissive, roughness, metallic, cutoff, unlit]);
+    same_layout!("lit.wgsl", "Material", types::Material, [base_color, emissive, roughness, metallic, cutoff, unlit, number]);
 }
 
 #[test]

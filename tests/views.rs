@@ -13,7 +13,7 @@ use obscura::frame::{Action, Capabilities, Draw, FramePlan, Target, identity_col
 use obscura::geometry::planar::reflection;
 use obscura::gpu::readback;
 use obscura::scene::{Material, Mirror, Reflective, Scene, stock};
-use obscura::settings::{LastBounce, LightEdit, MirrorMode, Settings, Show, SurfacePlace, Technique, Texturing};
+use obscura::settings::{LastBounce, LightEdit, MirrorMode, Settings, Shading, Show, SurfacePlace, Technique, Texturing};
 
 const SIZE: [u32; 2] = [320, 180];
 
@@ -96,9 +96,12 @@ fn mirrors_leave_depth_and_stencil_as_they_were() {
         let own: Vec<[u8; 3]> = (1..=instances).map(|number| identity_color(u32::try_from(number).unwrap())).collect();
         let is_own: Vec<bool> = seen.image.pixels().map(|pixel| own.contains(&[pixel[0], pixel[1], pixel[2]])).collect();
 
-        let with = stage.shoot(&settings(2), &scene);
+        // Frames with mirrors are drawn forward: so is the one without them.
+        let mut on = settings(2);
+        on.lighting.shading = Shading::Forward;
+        let with = stage.shoot(&on, &scene);
         let (depth, stencil) = (readback::depth(&stage.context, &stage.renderer).unwrap(), stage.stencil());
-        let mut off = settings(2);
+        let mut off = on.clone();
         off.mirrors.mode = MirrorMode::Off;
         let without = stage.shoot(&off, &scene);
         let (depth_off, stencil_off) = (readback::depth(&stage.context, &stage.renderer).unwrap(), stage.stencil());

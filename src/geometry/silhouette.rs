@@ -8,6 +8,7 @@
 //! volumes that hold the eye) reads that decision. A triangle seen edge-on may be decided either
 //! way by rounding; because nobody asks twice, the volume is closed whatever the answer.
 
+use std::fmt::{self, Debug, Formatter};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::{DAffine3, DVec3, DVec4, Vec3, Vec4};
@@ -31,7 +32,7 @@ pub fn light_in_object(world_from_object: &DAffine3, light: impl Into<DVec4>) ->
 
 /// The planes of a topology's triangles for one pose, as arrays, so that deciding who faces a
 /// light is one straight loop.
-#[derive(Debug, Clone, Default)]
+#[derive(Clone, Default)]
 pub struct Planes {
     x: Vec<f32>,
     y: Vec<f32>,
@@ -41,6 +42,15 @@ pub struct Planes {
     narrow: Vec<f32>,
     bounds: Aabb,
     build: u64,
+}
+
+/// Without the build's number: it says nothing of what the planes are.
+impl Debug for Planes {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        let Self { x, y, z, offset, narrow, bounds, build: _ } = self;
+        let planes = (x, y, z, offset);
+        out.debug_struct("Planes").field("planes", &planes).field("narrow", narrow).field("bounds", bounds).finish()
+    }
 }
 
 impl Planes {
