@@ -181,7 +181,7 @@
 //! What is left is the rasteriser's own grid. It moves corners by up to half of a 256th of a pixel, and on
 //! lavapipe finds depths as if they were not moved: so close to an edge a steep triangle gets a depth from
 //! beyond its edge. Where that edge is a silhouette's in a fold, the side that begins there then lies before the surface
-//! instead of behind it, and the count is off by one. One pixel in some thirty million is wrong by that. Moving the corners to the grid in the
+//! instead of behind it, and the count is off by one. One pixel in some ten to thirty million is wrong by that. Moving the corners to the grid in the
 //! vertex shader was tried: coverage and depth agree then, but facets tilt, and more is lost than won.
 //!
 //! A volume may be thrown from something else than its caster's silhouette: a planar cut-out, or the
