@@ -6,7 +6,9 @@ mod common;
 
 use common::Stage;
 use obscura::director::stage;
-use obscura::frame::{Capabilities, Program, Target};
+use obscura::frame::state::Depth;
+use obscura::frame::validate::validate;
+use obscura::frame::{Action, Capabilities, Draw, Program, Target};
 use obscura::scene::{Scene, stock};
 use obscura::settings::{Settings, Shading, Technique};
 
@@ -79,6 +81,37 @@ fn surfaces_are_drawn_once() {
     assert_eq!(plan.draws().filter(|(_, draw)| draw.program == Program::Shade).count(), 1);
     let mut walks = plan.draws().filter(|(_, draw)| matches!(draw.set, obscura::frame::DrawSet::Surfaces(_)));
     assert!(walks.all(|(_, draw)| draw.target == Target::Geometry), "surfaces are drawn for nothing else");
+}
+
+#[test]
+fn validation_knows_what_may_be_shaded() {
+    let scene = stock::build("courtyard").unwrap().unwrap();
+    let (_, good) = stage(&settings(Shading::Deferred), &scene, &Capabilities::complete()).unwrap();
+    let fault = |change: &dyn Fn(&mut Vec<obscura::frame::Step>)| {
+        let mut plan = good.clone();
+        change(&mut plan.steps);
+        validate(&plan).unwrap_err().what
+    };
+    let program = |step: &obscura::frame::Step| match &step.action {
+        Action::Draw(draw) => Some(draw.program),
+        _ => None,
+    };
+    let without = |unwanted: Program| fault(&|steps| steps.retain(|step| program(step) != Some(unwanted)));
+    assert!(without(Program::Geometry).contains("before colour and depth"), "without the walk that keeps them there is nothing");
+    assert!(without(Program::MarkLit).contains("bits of lights that left none"));
+    let changed = |wanted: Program, change: &dyn Fn(&mut Draw)| {
+        fault(&|steps| {
+            let draws = steps.iter_mut().filter_map(|step| match &mut step.action {
+                Action::Draw(draw) if draw.program == wanted => Some(draw),
+                _ => None,
+            });
+            draws.for_each(|draw| change(draw));
+        })
+    };
+    assert!(changed(Program::MarkLit, &|draw| draw.constant[0] = 1.0 / 255.0).contains("no other light"));
+    assert!(changed(Program::MarkLit, &|draw| draw.constant[0] = 0.5 / 255.0).contains("a bit each"));
+    assert!(changed(Program::Shade, &|draw| draw.state.depth = Depth::LAY).contains("neither depth nor stencil"));
+    assert!(changed(Program::Geometry, &|draw| draw.state.depth = Depth::SAME_SURFACE).contains("with their depth"));
 }
 
 #[test]

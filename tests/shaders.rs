@@ -202,3 +202,10 @@ fn an_error_in_an_included_file_names_that_file() {
     let error = Library::new(Some(folder.path())).load().unwrap_err().to_string();
     assert!(error.contains("shared/full_screen.wgsl:1:"), "{error}");
 }
+
+/// Surfaces are grouped by whether they have a highlight, and pixels shaded by their materials' numbers: by one bound.
+#[test]
+fn what_is_matt_is_so_on_both_sides() {
+    let bound = format!("const MATT: f32 = {:?};", obscura::techniques::surfaces::MATT);
+    assert!(include_str!("../shaders/shared/light.wgsl").contains(&bound), "{bound}");
+}

@@ -2,7 +2,7 @@
 
 const PI: f32 = 3.14159265;
 
-// At least this rough, and without metal, there is no highlight: it would not be seen.
+// At least this rough, and without metal, there is no highlight: techniques/surfaces/groups.rs has the same number.
 const MATT: f32 = 0.9;
 
 // How a material throws light back: the same all over it.

@@ -107,8 +107,7 @@ pub fn shade(shading: &Shading<'_>, (label, why): (&str, &str), stencil: Stencil
         let number = *light as f32;
         constant[place] = number;
     }
-    let used = scene.materials.iter();
-    let materials = used.clone().any(|material| material.unlit || material.emissive != glam::Vec3::ZERO);
+    let materials = scene.materials.iter().any(|material| material.unlit || material.emissive != glam::Vec3::ZERO);
     let glossy = !lights.is_empty() && groups.iter().any(|group| group.kind.look.glossy);
     let look =
         Look { glossy, finished: true, shade: Shade { lights: shapes, each, materials: materials || glossy }, ..Look::default() };

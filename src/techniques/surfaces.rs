@@ -5,7 +5,7 @@
 mod groups;
 
 pub(super) use groups::described;
-pub use groups::{Known, Place, SurfaceGroup, opaque_groups, solid_group};
+pub use groups::{Known, MATT, Place, SurfaceGroup, opaque_groups, solid_group};
 
 use crate::frame::plan::View;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State};

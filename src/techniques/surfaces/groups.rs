@@ -173,7 +173,7 @@ fn of_all<'a>(known: Known<'a>, view: &'a View) -> impl Iterator<Item = (Kind, A
 }
 
 /// Materials at least this rough, and without metal, get no highlight: it would not be seen.
-const MATT: f32 = 0.9;
+pub const MATT: f32 = 0.9;
 
 impl SurfaceGroup {
     /// Whether depth is laid by drawing the surfaces in their final colour: not before the count is known,
