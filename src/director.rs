@@ -276,9 +276,10 @@ pub fn plan(
             frame.start(rounds.first().map_or(0, |round| round.base));
             frame.draw_solid();
             frame.extend(surfaces::ambient(&groups, whole));
-            frame.lay_decals(&groups);
+            let all: Vec<_> = groups.iter().collect();
+            frame.lay_decals(&all);
             if frame.is_planar() {
-                frame.shine_planar(&groups.iter().collect::<Vec<_>>());
+                frame.shine_planar(&all);
             }
             for round in rounds {
                 frame.start_round(&round);
@@ -299,7 +300,7 @@ pub fn plan(
                     frame.darken(light, color);
                 }
             }
-            frame.blend_decals(&groups);
+            frame.blend_decals(&all);
             frame.extend(transparent);
             frame.draw_halos();
             frame.finish();

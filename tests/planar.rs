@@ -476,3 +476,23 @@ fn what_cannot_receive_is_told_and_left_out() {
         assert!(notes.iter().any(|note| note.contains(words)), "{words}: {notes:?}");
     }
 }
+
+/// A light that nothing stands in the way of shines, beside another whose shadows are counted or thrown.
+#[test]
+fn a_light_without_casters_shines_in_every_mode() {
+    let (mut scene, floor) = heaps();
+    scene.lights[1].range = 1.0;
+    scene.nodes[scene.lights[1].node].local =
+        obscura::scene::Transform::Affine(glam::DAffine3::from_translation(DVec3::new(-0.5, 0.5, 3.2)));
+    let mut stage = Stage::new();
+    stage.set_scene(&scene);
+    for mode in STENCILLED {
+        let mut settings = Settings { exposure: -3.0, ..drawn_by(mode, [3.0, 5.0, 7.0], [0.0, 0.3, 0.0]) };
+        receives(&mut settings, floor);
+        let with = stage.shoot(&settings, &scene).image;
+        settings.lights.insert(1, LightEdit { on: Some(false), ..LightEdit::default() });
+        let without = stage.shoot(&settings, &scene).image;
+        let brighter = with.pixels().zip(without.pixels()).filter(|(a, b)| a.0[0] > b.0[0]).count();
+        assert!(brighter > 100, "{mode:?}: {brighter}");
+    }
+}

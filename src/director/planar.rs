@@ -4,12 +4,13 @@
 //! are thrown through its own eye. So reflections have planar shadows too.
 
 use super::{Frame, MID_GREY};
-use crate::frame::Step;
 use crate::frame::stencil::{StencilOp, StencilState};
+use crate::frame::{Step, VolumePlan};
 use crate::geometry::LitPlane;
 use crate::settings::PlanarMode;
 use crate::techniques::counting::LightCount;
 use crate::techniques::culling::around;
+use crate::techniques::decals::Decals;
 use crate::techniques::own_bits::{Round, Shining};
 use crate::techniques::planar::{self, Leaves, Receivers, Stand, Thrower};
 use crate::techniques::show;
@@ -39,10 +40,13 @@ impl Frame<'_> {
 
     /// Every light, over surfaces that lie in ambient light.
     pub(super) fn shine_planar(&mut self, groups: &[&SurfaceGroup]) {
-        let (stands, others) = self.receivers.apart(groups);
+        // Where nothing is tagged decals need no value.
+        let untagged = Decals::default();
+        let mode = self.settings.planar.mode;
+        let (stands, others) = self.receivers.apart(groups, if mode == PlanarMode::Naive { &untagged } else { &self.decals });
         let others: Vec<_> = others.iter().collect();
         let lamps: Vec<_> = (0..self.pose.lights.len()).filter_map(|light| self.lamp(light)).collect();
-        match self.settings.planar.mode {
+        match mode {
             PlanarMode::Off => {}
             PlanarMode::Naive => {
                 self.add_all(&lamps, groups);
@@ -63,8 +67,8 @@ impl Frame<'_> {
             }
             PlanarMode::StencilRelight => {
                 // What a mirror reflects lies beneath its own look, and cannot be drawn anew.
-                let (mirrors, plain): (Vec<_>, Vec<_>) = stands.into_iter().partition(|stand| stand.group.mirror().is_some());
-                let lit: Vec<_> = others.iter().copied().chain(plain.iter().map(|stand| &stand.group)).collect();
+                let (mirrors, plain): (Vec<_>, Vec<_>) = stands.into_iter().partition(Stand::reflects);
+                let lit: Vec<_> = others.iter().copied().chain(plain.iter().flat_map(|stand| &stand.groups)).collect();
                 self.add_all(&lamps, &lit);
                 self.each_tagged(&plain, true, |frame, stand, value| frame.relight(&lamps, stand, value));
                 self.each_tagged(&mirrors, true, |frame, stand, value| frame.light_in_turn(&lamps, stand, value));
@@ -107,7 +111,7 @@ impl Frame<'_> {
         let light = self.settings.light;
         let Some(rect) = self.light_rect(light) else { return };
         let lamp = Lamp { light, rect, throwers: self.throwers(light, rect) };
-        let (stands, others) = self.receivers.apart(groups);
+        let (stands, others) = self.receivers.apart(groups, &self.decals);
         let said = |groups: &[&SurfaceGroup], lit, state| surfaces::said(groups.iter().copied(), light, rect, lit, state);
         let mode = self.settings.planar.mode;
         match mode {
@@ -125,12 +129,17 @@ impl Frame<'_> {
                 let step = if mode == PlanarMode::StencilBlend { StencilOp::Zero } else { StencilOp::IncrementWrap };
                 if !stencil {
                     self.extend(said(&others.iter().collect::<Vec<_>>(), true, StencilState::IGNORE));
-                    self.extend(said(&stands.iter().map(|stand| &stand.group).collect::<Vec<_>>(), false, StencilState::IGNORE));
+                    self.extend(said(
+                        &stands.iter().flat_map(|stand| &stand.groups).collect::<Vec<_>>(),
+                        false,
+                        StencilState::IGNORE,
+                    ));
                 }
                 self.each_tagged(&stands, false, |frame, stand, value| {
                     frame.throw(&lamp, stand, Leaves::Next(value, step));
                     if !stencil {
-                        let lit = said(&[&stand.group], true, StencilState::on_receiver(frame.plan.budget));
+                        let lit =
+                            said(&stand.groups.iter().collect::<Vec<_>>(), true, StencilState::on_receiver(frame.plan.budget));
                         frame.extend(planar::where_value(lit, value));
                     }
                 });
@@ -173,9 +182,20 @@ impl Frame<'_> {
 
     /// A light on surfaces, mirrors' own among them, where the stencil lets it through.
     fn lit(&self, light: usize, rect: [u32; 4], groups: &[&SurfaceGroup], stencil: StencilState) -> Vec<Step> {
-        let (reached, shape) = (self.reached(light), (&self.pose.lights[light]).into());
+        self.lit_among(&self.reached(light), (light, rect), groups, stencil)
+    }
+
+    /// The same on those of the surfaces whose instances are `reached`.
+    fn lit_among(
+        &self,
+        reached: &[bool],
+        (light, rect): (usize, [u32; 4]),
+        groups: &[&SurfaceGroup],
+        stencil: StencilState,
+    ) -> Vec<Step> {
+        let shape = (&self.pose.lights[light]).into();
         let of_group = |group: &&SurfaceGroup| {
-            let steps = surfaces::lit([*group], light, shape, rect, stencil, &reached);
+            let steps = surfaces::lit([*group], light, shape, rect, stencil, reached);
             match group.mirror() {
                 None => steps,
                 Some(mirror) if self.mirrors.is_perfect(mirror) => Vec::new(),
@@ -197,7 +217,7 @@ impl Frame<'_> {
                 self.reset_view("receivers begin", why, 0);
             }
             for (number, stand) in some.iter().enumerate() {
-                self.push(planar::tag(stand, budget, budget.receiver(number), whole));
+                self.extend(planar::tag(stand, budget, budget.receiver(number), whole));
             }
             for (number, stand) in some.iter().enumerate() {
                 each(self, stand, budget.receiver(number));
@@ -205,13 +225,18 @@ impl Frame<'_> {
         }
     }
 
-    /// Throws a light's casters onto a receiver.
-    fn throw(&mut self, lamp: &Lamp, stand: &Stand, leaves: Leaves) {
+    /// What a light's casters throw onto a receiver, and what they do not.
+    fn thrown(&self, lamp: &Lamp, stand: &Stand) -> Vec<VolumePlan> {
         let posed = &self.pose.lights[lamp.light];
         let onto = LitPlane::of(stand.posed.plane, posed.into(), self.view().camera.eye, stand.posed.room);
+        let of = |thrower: &Thrower| thrower.throw(onto, stand.surface, (lamp.light, posed.into()), self.outlook.view);
+        lamp.throwers.iter().map(of).collect()
+    }
+
+    /// Throws a light's casters onto a receiver.
+    fn throw(&mut self, lamp: &Lamp, stand: &Stand, leaves: Leaves) {
         let (mut parts, mut scissor) = (Vec::new(), None);
-        for thrower in &lamp.throwers {
-            let volume = thrower.throw(onto, stand.surface, (lamp.light, posed.into()), self.outlook.view);
+        for volume in self.thrown(lamp, stand) {
             if volume.projection.is_some() {
                 parts.extend(planar::parts(self.plan.volumes.len()));
                 scissor = Some(scissor.map_or(volume.rect, |scissor| around(scissor, volume.rect)));
@@ -230,9 +255,14 @@ impl Frame<'_> {
         let (mut now, mut next) = (value, value + 1);
         for lamp in lamps {
             let step = if now < next { StencilOp::IncrementWrap } else { StencilOp::DecrementWrap };
+            let reached = self.reached(lamp.light);
+            if !stand.is_among(&reached) {
+                continue;
+            }
             // All of its pixels, also where the light does not reach: they must go on together.
+            let (all, groups) = (vec![true; reached.len()], stand.groups.iter().collect::<Vec<_>>());
             let stencil = StencilState::move_on(self.plan.budget, step);
-            let steps = self.lit(lamp.light, self.whole(), &[&stand.group], stencil);
+            let steps = self.lit_among(&all, (lamp.light, self.whole()), &groups, stencil);
             if steps.is_empty() {
                 continue;
             }
@@ -245,7 +275,7 @@ impl Frame<'_> {
     /// Where any light is blocked a receiver is drawn anew (K section 5), and each light added again that is not.
     fn relight(&mut self, lamps: &[Lamp], stand: &Stand, value: u8) {
         let (budget, whole) = (self.plan.budget, self.whole());
-        let reaches: Vec<_> = lamps.iter().filter(|lamp| self.reached(lamp.light)[stand.surface.instance]).collect();
+        let reaches: Vec<_> = lamps.iter().filter(|lamp| stand.is_among(&self.reached(lamp.light))).collect();
         for lamp in &reaches {
             self.throw(lamp, stand, Leaves::Next(value, StencilOp::IncrementWrap));
         }
@@ -253,8 +283,7 @@ impl Frame<'_> {
         let alone = reaches.len() < 2;
         let done = StencilState::move_on(budget, StencilOp::DecrementWrap);
         let stencil = if alone { done } else { StencilState::on_receiver(budget) };
-        let ambient = surfaces::ambient([&stand.group], whole);
-        self.extend(planar::relit(stand, ambient, stencil, value + 1));
+        self.extend(planar::relit(stand, stencil, value + 1, whole));
         if !alone {
             self.light_in_turn(reaches, stand, value + 1);
         }
@@ -265,8 +294,11 @@ impl Frame<'_> {
     fn count_hybrid(&mut self, lamp: &Lamp, stands: &[Stand]) -> StencilState {
         let part = self.settings.planar.hybrid;
         let count = if part.has_volumes() { self.count(lamp.light) } else { LightCount::default() };
-        let planar = part.has_planar() && !stands.is_empty();
+        let falls = |stand| self.thrown(lamp, stand).iter().any(|volume| volume.projection.is_some());
+        let planar = part.has_planar() && stands.iter().any(falls);
         if count.steps.is_empty() && !planar {
+            // Why nothing is thrown, for the record.
+            stands.iter().for_each(|stand| self.plan.volumes.extend(self.thrown(lamp, stand)));
             return self.unused_bit(Some(lamp.light));
         }
         let budget = if count.steps.is_empty() { self.plan.budget } else { count.budget };

@@ -133,9 +133,10 @@ impl Frame<'_> {
                 self.push(step);
             }
         }
+        let all: Vec<_> = stage.plain.iter().chain(&stage.grey).chain(stage.open.iter().map(|(group, _)| group)).collect();
+        self.lay_decals(&all);
         if self.is_planar() {
-            let open = stage.open.iter().map(|(group, _)| group);
-            self.shine_planar(&stage.plain.iter().chain(&stage.grey).chain(open).collect::<Vec<_>>());
+            self.shine_planar(&all);
         }
         let rounds = if self.is_planar() { Vec::new() } else { self.rounds() };
         for round in rounds {
@@ -157,6 +158,7 @@ impl Frame<'_> {
             let once = self.unused_bit(None);
             self.extend(surfaces::textures(&stage.plain, once, whole));
         }
+        self.blend_decals(&all);
         self.extend(surfaces::transparent(self.known(), self.view(), whole));
         self.draw_halos();
     }

@@ -18,7 +18,7 @@ use thiserror::Error;
 use super::plan::{FramePlan, Method};
 use super::state::{Blend, Compare, Cull, Depth, NearPlane, State};
 use super::stencil::{StencilFace, StencilOp, StencilState};
-use super::step::{Action, Draw, DrawSet, Part, Program, Target};
+use super::step::{Action, Draw, DrawSet, Part, Program, Surface, Target};
 
 /// A rule that a plan may break on purpose, where it shows what comes of it: see
 /// [`crate::failures`]. All others hold always.
@@ -126,6 +126,8 @@ struct Progress {
     shone: u8,
     /// The ground of decals is marked.
     ground_marked: bool,
+    /// Each ground that was, with the decals that claimed it.
+    grounds: Vec<Vec<Surface>>,
     /// Shapes of the playground were drawn.
     played: bool,
     /// The stencil holds how many fragments fell on each pixel, since it was cleared.

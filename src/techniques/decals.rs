@@ -18,6 +18,10 @@
 //!
 //! The ground are all flat opaque surfaces in a decal's plane. Blended decals come when all light is there, by the same
 //! bit, each layer's pixels once: overlapping triangles of one shadow do not darken twice.
+//!
+//! In mirrors nothing else is done, view by view: decals come when a view's own mirrors show what they reflect, so that
+//! they may lie on a mirror as well. On ground that takes planar shadows decals take them with it, under its value
+//! ([`super::planar::Stand`]); where only a part of the ground does, they are offset instead.
 
 use std::collections::BTreeMap;
 
@@ -39,6 +43,8 @@ pub struct Decals {
     grounds: Vec<Ground>,
     /// They are not drawn at all: exact values are their ground's.
     hidden: bool,
+    /// Some are offset although the stencil could draw them: only a part of their ground takes planar shadows.
+    parted: bool,
 }
 
 /// One decal.
@@ -64,9 +70,10 @@ struct Ground {
 const FLAT: f64 = 1e-6;
 
 impl Decals {
-    /// The scene's decals, where they are, to be drawn by `mode`; or hidden, where exact values are shown.
+    /// The scene's decals, where they are, to be drawn by `mode`; or hidden, where exact values are shown. `receives` says
+    /// which surfaces take planar shadows by a value in the stencil.
     #[must_use]
-    pub fn new(scene: &Scene, pose: &Pose, mode: DecalMode, hidden: bool) -> Self {
+    pub fn new(scene: &Scene, pose: &Pose, mode: DecalMode, hidden: bool, receives: impl Fn(Surface) -> bool) -> Self {
         if !scene.materials.iter().any(|material| material.decal) {
             return Self::default();
         }
@@ -79,6 +86,15 @@ impl Decals {
                 let surface = Surface { instance, primitive };
                 let plane = if mode == DecalMode::Stencil && !hidden { plane(scene, pose, node, part, room) } else { None };
                 let ground = plane.and_then(|plane| decals.ground(scene, pose, plane, room));
+                // What blends comes when shadows have fallen.
+                let blended = scene.materials[part.material].alpha == AlphaMode::Blend;
+                let ground = match ground {
+                    Some(ground) if !blended && decals.grounds[ground].parts(&receives, surface) => {
+                        decals.parted = true;
+                        None
+                    }
+                    ground => ground,
+                };
                 let layer = u32::try_from(layer + 1).unwrap_or(u32::MAX);
                 let offset = mode == DecalMode::Offset || (mode == DecalMode::Stencil && ground.is_none());
                 decals.by_surface.insert((surface.instance, surface.primitive), Decal { layer, ground, offset });
@@ -139,12 +155,24 @@ impl Decals {
     /// Whether the stencil draws any.
     #[must_use]
     pub fn claim(&self) -> bool {
-        !self.grounds.is_empty()
+        self.by_surface.values().any(|decal| decal.ground.is_some())
+    }
+
+    /// Whether some are offset because only a part of their ground takes planar shadows.
+    #[must_use]
+    pub fn parted(&self) -> bool {
+        self.parted
+    }
+
+    /// Whether a surface is of the ground of that number.
+    #[must_use]
+    pub fn lies_in(&self, ground: usize, surface: Surface) -> bool {
+        self.grounds.get(ground).is_some_and(|ground| ground.surfaces.contains(&surface))
     }
 
     /// Opaque decals of every ground, in ambient and emitted light; `groups` are the view's, decals from the topmost on.
     #[must_use]
-    pub fn lay(&self, groups: &[SurfaceGroup], budget: BitBudget, scissor: [u32; 4]) -> Vec<Step> {
+    pub fn lay(&self, groups: &[&SurfaceGroup], budget: BitBudget, scissor: [u32; 4]) -> Vec<Step> {
         let mut steps = Vec::new();
         for number in 0..self.grounds.len() {
             let claims: Vec<_> = groups
@@ -176,7 +204,7 @@ impl Decals {
         &self,
         known: Known<'_>,
         view: &View,
-        groups: &[SurfaceGroup],
+        groups: &[&SurfaceGroup],
         budget: BitBudget,
         scissor: [u32; 4],
     ) -> Vec<Step> {
@@ -209,7 +237,7 @@ impl Decals {
     fn on(
         &self,
         number: usize,
-        groups: &[SurfaceGroup],
+        groups: &[&SurfaceGroup],
         (steps, laid): (Vec<Step>, bool),
         budget: BitBudget,
         scissor: [u32; 4],
@@ -232,6 +260,17 @@ impl Decals {
         };
         let why = "The rest of the ground is ground like any other: the bit is free again.";
         marked.chain(steps).chain([step("unmark the ground".into(), why, unmark)]).collect()
+    }
+}
+
+impl Ground {
+    /// Whether a decal on it cannot share the value of what takes planar shadows: some of the ground takes them and some
+    /// not, or the decal alone does. In the decal's pixels its depth and the ground's are the same by chance, and light that
+    /// is told apart by two values falls there twice.
+    fn parts(&self, receives: impl Fn(Surface) -> bool, decal: Surface) -> bool {
+        let receiving = self.surfaces.iter().filter(|surface| receives(**surface)).count();
+        let all = receiving == self.surfaces.len();
+        if receiving == 0 { receives(decal) } else { !all }
     }
 }
 

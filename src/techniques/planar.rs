@@ -24,7 +24,8 @@ use std::collections::BTreeMap;
 use glam::{DAffine3, DVec4};
 
 use super::Caster;
-use super::surfaces::SurfaceGroup;
+use super::decals::Decals;
+use super::surfaces::{SurfaceGroup, ambient_of};
 use crate::frame::state::{Blend, Depth, DepthBias, State};
 use crate::frame::stencil::{BitBudget, StencilOp, StencilState};
 use crate::frame::{
@@ -84,17 +85,33 @@ pub struct Receivers {
     by_surface: BTreeMap<(usize, usize), usize>,
 }
 
-/// A receiver that a view may see, and what draws it.
+/// A receiver that a view may see, and all that takes its shadows with it: the decals on it, and where they may lie on other
+/// receivers in its plane as well, those. A shadow thrown onto one is a shadow on all.
 #[derive(Debug)]
 pub struct Stand {
     /// What it is called.
     pub name: String,
-    /// The one surface.
+    /// The one surface that shadows are thrown onto.
     pub surface: Surface,
-    /// By itself.
-    pub group: SurfaceGroup,
+    /// Each by itself: decals from the topmost on, and then what they lie on. So each pixel is first met by what is seen there,
+    /// where depths of one plane are the same by chance.
+    pub groups: Vec<SurfaceGroup>,
     /// Where it is.
     pub posed: PosedReceiver,
+}
+
+impl Stand {
+    /// Whether a mirror is among it.
+    #[must_use]
+    pub fn reflects(&self) -> bool {
+        self.groups.iter().any(|group| group.mirror().is_some())
+    }
+
+    /// Whether any of it is among the instances that something reaches.
+    #[must_use]
+    pub fn is_among(&self, reached: &[bool]) -> bool {
+        self.groups.iter().flat_map(|group| &group.surfaces).any(|surface| reached[surface.instance])
+    }
 }
 
 impl Receivers {
@@ -132,20 +149,43 @@ impl Receivers {
         self.list.is_empty()
     }
 
-    /// The receivers among a view's surfaces, each by itself, and all that are none.
+    /// Whether a surface is one.
     #[must_use]
-    pub fn apart(&self, groups: &[&SurfaceGroup]) -> (Vec<Stand>, Vec<SurfaceGroup>) {
-        let (mut stands, mut others) = (Vec::new(), Vec::new());
-        let number = |surface: &Surface| self.by_surface.get(&(surface.instance, surface.primitive));
-        for group in groups {
-            let (receiving, rest): (Vec<_>, Vec<_>) = group.surfaces.iter().partition(|surface| number(surface).is_some());
-            stands.extend(receiving.into_iter().filter_map(|surface| {
-                let (receiver, posed) = &self.list[*number(&surface)?];
-                let group = SurfaceGroup { kind: group.kind, surfaces: vec![surface] };
-                Some(Stand { name: receiver.name.clone(), surface, group, posed: *posed })
-            }));
+    pub fn holds(&self, surface: Surface) -> bool {
+        self.by_surface.contains_key(&(surface.instance, surface.primitive))
+    }
+
+    /// The receivers among a view's surfaces, each by itself but for what shares `decals`, and all that are none.
+    #[must_use]
+    pub fn apart(&self, groups: &[&SurfaceGroup], decals: &Decals) -> (Vec<Stand>, Vec<SurfaceGroup>) {
+        let (mut stands, mut others): (Vec<Stand>, Vec<SurfaceGroup>) = (Vec::new(), Vec::new());
+        let single = |group: &SurfaceGroup, surface| SurfaceGroup { kind: group.kind, surfaces: vec![surface] };
+        let grounds: Vec<_> = groups.iter().filter_map(|group| group.claims()).collect();
+        let shared = |a, b| grounds.iter().any(|&ground| decals.lies_in(ground, a) && decals.lies_in(ground, b));
+        for group in groups.iter().filter(|group| group.claims().is_none()) {
+            let (receiving, rest): (Vec<Surface>, Vec<Surface>) =
+                group.surfaces.iter().partition(|surface| self.holds(**surface));
+            for surface in receiving {
+                let Some(&number) = self.by_surface.get(&(surface.instance, surface.primitive)) else { continue };
+                let (receiver, posed) = &self.list[number];
+                match stands.iter_mut().find(|stand| shared(stand.surface, surface)) {
+                    Some(stand) => stand.groups.push(single(group, surface)),
+                    None => {
+                        let (name, groups) = (receiver.name.clone(), vec![single(group, surface)]);
+                        stands.push(Stand { name, surface, groups, posed: *posed });
+                    }
+                }
+            }
             if !rest.is_empty() {
                 others.push(SurfaceGroup { kind: group.kind, surfaces: rest });
+            }
+        }
+        // What claims its pixels stands before what it lies on.
+        for group in groups.iter().rev() {
+            let Some(ground) = group.claims() else { continue };
+            match stands.iter_mut().find(|stand| decals.lies_in(ground, stand.surface)) {
+                Some(stand) => _ = stand.groups.splice(0..0, group.surfaces.iter().map(|&surface| single(group, surface))),
+                None => others.insert(0, SurfaceGroup { kind: group.kind, surfaces: group.surfaces.clone() }),
             }
         }
         (stands, others)
@@ -326,12 +366,19 @@ pub fn parts(volume: usize) -> [VolumePart; 2] {
     [Part::LightCapKept, Part::LightCapTurned].map(|part| VolumePart { volume, part })
 }
 
-/// A receiver's visible pixels get its value.
+/// A receiver's visible pixels get its value, and so do those of the decals on it.
 #[must_use]
-pub fn tag(stand: &Stand, budget: BitBudget, value: u8, scissor: [u32; 4]) -> Step {
-    let draw = stand.group.depth_draw(Depth::SAME_SURFACE, StencilState::tag_receiver(budget, value), scissor);
-    let why = "The receiver's visible pixels get a value that no other surface has: no shadow will leave them.";
-    Step::drawing(format!("tag {}", stand.name), why, draw)
+pub fn tag(stand: &Stand, budget: BitBudget, value: u8, scissor: [u32; 4]) -> Vec<Step> {
+    let of_group = |group: &SurfaceGroup| {
+        let draw = group.depth_draw(Depth::SAME_SURFACE, StencilState::tag_receiver(budget, value), scissor);
+        let (words, why) = if group.claims().is_some() {
+            (": decal", "Where a decal is seen on the receiver it takes the shadows that fall there.")
+        } else {
+            ("", "The receiver's visible pixels get a value that no other surface has: no shadow will leave them.")
+        };
+        Step::drawing(format!("tag {}{words}", stand.name), why, draw)
+    };
+    stand.groups.iter().map(of_group).collect()
 }
 
 /// No pixel is a receiver's any more.
@@ -355,16 +402,19 @@ pub fn where_value(mut steps: Vec<Step>, value: u8) -> Vec<Step> {
 
 /// A receiver in ambient and emitted light alone, in the place of all that was added to it.
 #[must_use]
-pub fn relit(stand: &Stand, steps: Vec<Step>, stencil: StencilState, value: u8) -> Vec<Step> {
-    let again = |step: Step| {
+pub fn relit(stand: &Stand, stencil: StencilState, value: u8, scissor: [u32; 4]) -> Vec<Step> {
+    let again = |group: &SurfaceGroup| {
+        let step = ambient_of(group, scissor);
         let Action::Draw(mut draw) = step.action else { return step };
-        draw.state = State { depth: Depth::SAME_SURFACE, stencil, ..draw.state };
+        draw.state = State { depth: Depth::SAME_SURFACE.with_bias(draw.state.depth.bias), stencil, ..draw.state };
         draw.look.clipped = false;
         draw.stencil_reference = value;
         let why = "Shadowed pixels drawn anew with the blocked light switched off, instead of being darkened.";
         Step { action: Action::Draw(draw), label: format!("relight {}", stand.name), why: why.into(), ..step }
     };
-    steps.into_iter().map(again).collect()
+    let steps = stand.groups.iter().map(again);
+    // What is seen in a pixel must have the last word there, or the only one.
+    if stencil.writes() { steps.collect() } else { steps.rev().collect() }
 }
 
 #[cfg(test)]

@@ -20,7 +20,14 @@ pub(super) fn step(label: String, why: &str, draw: Draw) -> Step {
 /// Ambient and emitted light; lays the depth that everything after is tested against.
 #[must_use]
 pub fn ambient<'a>(groups: impl IntoIterator<Item = &'a SurfaceGroup>, scissor: [u32; 4]) -> Vec<Step> {
-    let draw = |group: &SurfaceGroup| Draw {
+    let plain = groups.into_iter().filter(|group| group.claims().is_none());
+    plain.map(|group| ambient_of(group, scissor)).collect()
+}
+
+/// The same of one group, also where it claims its pixels.
+#[must_use]
+pub fn ambient_of(group: &SurfaceGroup, scissor: [u32; 4]) -> Step {
+    let draw = Draw {
         program: if group.kind.masked { Program::AmbientMasked } else { Program::Ambient },
         look: group.kind.look,
         target: Target::Scene,
@@ -39,8 +46,7 @@ pub fn ambient<'a>(groups: impl IntoIterator<Item = &'a SurfaceGroup>, scissor: 
         set: DrawSet::Surfaces(group.surfaces.clone()),
     };
     let why = "Draws every surface in ambient and emitted light and lays the depth that all later steps are tested against.";
-    let plain = groups.into_iter().filter(|group| group.claims().is_none());
-    plain.map(|group| step(format!("ambient{}", group.words()), why, draw(group))).collect()
+    step(format!("ambient{}", group.words()), why, draw)
 }
 
 /// Depth alone, of every surface that does not lay it when it is [`finished`]: those do where nothing is

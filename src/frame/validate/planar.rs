@@ -2,18 +2,29 @@
 
 use super::Progress;
 use crate::frame::plan::FramePlan;
-use crate::frame::state::{Compare, Depth};
+use crate::frame::state::{Compare, Depth, DepthBias};
 use crate::frame::stencil::{StencilOp, StencilState};
 use crate::frame::step::{Draw, DrawSet, Program, Surface};
 
-/// A receiver whose visible pixels are tagged.
-#[derive(Debug, Clone, Copy)]
+/// A receiver whose visible pixels are tagged, with what shares its plane.
+#[derive(Debug, Clone)]
 pub(super) struct Tagged {
-    surface: Surface,
+    surfaces: Vec<Surface>,
     /// What pixels hold that are not in shadow.
     now: u8,
     /// What shadows have made of others, and of which light.
     shadowed: Option<(u8, Option<usize>)>,
+    /// How its surfaces are being drawn, and which were.
+    drawn: Option<(Drawn, Vec<Surface>)>,
+}
+
+/// What the surfaces of one value have in common where one thing is done to all of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Drawn {
+    program: Program,
+    light: Option<usize>,
+    stencil: StencilState,
+    reference: u8,
 }
 
 /// A draw that asks for receivers' bits, or changes them.
@@ -29,7 +40,7 @@ pub(super) fn check(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Resu
     match &draw.set {
         DrawSet::Surfaces(surfaces) => {
             let [surface] = surfaces[..] else { return Err("receivers are drawn one by one") };
-            if draw.state.depth != Depth::SAME_SURFACE {
+            if draw.state.depth.with_bias(DepthBias::NONE) != Depth::SAME_SURFACE {
                 return Err("a receiver is drawn where it is seen: at its own depth");
             }
             check_receiver(plan, draw, surface, state)
@@ -44,7 +55,7 @@ pub(super) fn check(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Resu
             }
             for part in parts {
                 let volume = plan.volumes.get(part.volume).ok_or("it draws a volume that is not planned")?;
-                if volume.projection.is_none_or(|projection| projection.receiver != tagged.surface) {
+                if volume.projection.is_none_or(|projection| !tagged.surfaces.contains(&projection.receiver)) {
                     return Err("a shadow falls on another receiver than it was thrown onto");
                 }
                 if Some(volume.light) != draw.light {
@@ -63,6 +74,7 @@ pub(super) fn check(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Resu
                 return Err("a shadow falls on pixels that are in one already");
             }
             tagged.shadowed = Some((after, draw.light));
+            tagged.drawn = None;
             Ok(())
         }
         _ => Err("only receivers and shadows have to do with receivers' bits"),
@@ -76,16 +88,31 @@ fn check_receiver(plan: &FramePlan, draw: &Draw, surface: Surface, state: &mut P
         if draw.stencil_reference != 0 || draw.state.color.is_some() {
             return Err("a receiver is tagged where none is yet, and nothing else is done");
         }
-        if state.receivers.insert(tag, Tagged { surface, now: tag, shadowed: None }).is_some() {
+        let Some(tagged) = state.receivers.get(&tag) else {
+            state.receivers.insert(tag, Tagged { surfaces: vec![surface], now: tag, shadowed: None, drawn: None });
+            return Ok(());
+        };
+        let apart = |other: &Surface| *other == surface || !state.shares_ground(*other, surface);
+        if tagged.now != tag || tagged.shadowed.is_some() || tagged.surfaces.iter().any(apart) {
             return Err("two receivers have one value");
         }
+        state.receivers.entry(tag).and_modify(|tagged| tagged.surfaces.push(surface));
         return Ok(());
     }
     let value = draw.stencil_reference & budget.receiver_mask;
-    let Some(tagged) = state.receivers.get_mut(&value).filter(|tagged| tagged.surface == surface) else {
+    let Some(tagged) = state.receivers.get_mut(&value).filter(|tagged| tagged.surfaces.contains(&surface)) else {
         return Err("it asks for another receiver's value");
     };
     let reference = draw.stencil_reference;
+    let drawn = Drawn { program: draw.program, light: draw.light, stencil, reference };
+    match &mut tagged.drawn {
+        // The same is done to another part of it.
+        Some((before, surfaces)) if *before == drawn && !surfaces.contains(&surface) => {
+            surfaces.push(surface);
+            return Ok(());
+        }
+        other => *other = Some((drawn, vec![surface])),
+    }
     let in_shadow = tagged.shadowed.is_some_and(|(value, _)| value == reference);
     match (draw.program, moved(plan, draw)) {
         // Light, and the lit pixels go where the shadowed ones are.
