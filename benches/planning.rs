@@ -8,13 +8,14 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use glam::{DAffine3, DVec2, DVec3, DVec4, Vec3};
 use obscura::director;
 use obscura::frame::validate::validate;
-use obscura::frame::{Camera, Capabilities};
+use obscura::frame::{Camera, Capabilities, FramePlan};
 use obscura::geometry::clip::clipped;
 use obscura::geometry::frustum::hull_rect;
 use obscura::geometry::{Aabb, Body, Sight};
-use obscura::scene::pose::pose;
-use obscura::scene::{Scene, generated, stock};
+use obscura::scene::pose::{Poser, pose};
+use obscura::scene::{Pose, Scene, generated, stock};
 use obscura::settings::{Settings, Technique};
+use obscura::techniques::workspace::Workspace;
 
 /// Scenes with many casters, with many lights, with many views.
 fn scenes() -> Vec<Scene> {
@@ -29,16 +30,29 @@ fn plans(criterion: &mut Criterion) {
         group.sample_size(30);
         let settings = Settings::default();
         group.bench_function("pose", |bencher| {
-            bencher.iter(|| pose(&scene, black_box(1.0), scene.default_animation, &settings.lights));
+            let (mut poser, mut before) = (Poser::default(), Pose::default());
+            bencher.iter(|| {
+                let memory = std::mem::take(&mut before);
+                before = poser.pose(memory, &scene, black_box(1.0), scene.default_animation, &settings.lights);
+            });
         });
         let posed = pose(&scene, 0.0, scene.default_animation, &settings.lights);
         let camera = Camera::choose(&settings, &scene, &posed).unwrap();
         for technique in [Technique::None, Technique::ZFail, Technique::Auto] {
             let settings = Settings { technique, ..Settings::default() };
-            let plan = || director::plan(&settings, &scene, black_box(&posed), camera, &capabilities, None);
-            group.bench_function(technique.name(), |bencher| bencher.iter(plan));
+            // One frame after the other, in the memory of the one before.
+            let (mut workspace, mut before) = (Workspace::default(), FramePlan::default());
+            group.bench_function(technique.name(), |bencher| {
+                bencher.iter(|| {
+                    let memory = std::mem::take(&mut before).emptied();
+                    workspace.take_back();
+                    let posed = black_box(&posed);
+                    before = director::plan(&settings, &scene, posed, camera, &capabilities, None, (&workspace, memory));
+                });
+            });
         }
-        let plan = director::plan(&settings, &scene, &posed, camera, &capabilities, None);
+        let memory = (&Workspace::default(), FramePlan::default());
+        let plan = director::plan(&settings, &scene, &posed, camera, &capabilities, None, memory);
         group.bench_function("validation", |bencher| bencher.iter(|| validate(black_box(&plan))));
         group.finish();
     }

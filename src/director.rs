@@ -17,156 +17,35 @@ mod rounds;
 mod shown;
 mod silhouettes;
 mod solids;
+mod stage;
 mod views;
 
-use glam::DVec2;
-use thiserror::Error;
+pub use stage::{Planner, StageError, frames, stage, stage_changed, stage_frame};
 
 use crate::director::views::Outlook;
-use crate::failures;
 use crate::frame::plan::View;
 use crate::frame::stencil::{BitBudget, StencilState};
-use crate::frame::validate::{Fault, validate};
-use crate::frame::{Action, Camera, CameraError, Capabilities, Clear, FramePlan, Gather, Reflections, Step, Target};
+use crate::frame::{Action, Camera, Capabilities, Clear, FramePlan, Gather, Reflections, Step, Target};
 use crate::geometry::Enclosure;
 use crate::geometry::sight::Sight;
-use crate::scene::area::sequence;
-use crate::scene::pose::pose;
-use crate::scene::{Pose, Sampling, Scene};
-use crate::settings::{Accumulation, MAX_FRAMES, MirrorLight, Settings, Show, Technique, Texturing};
+use crate::scene::{Pose, Scene};
+use crate::settings::{Accumulation, Settings, Show, Technique, Texturing};
 use crate::techniques::cases::{self, Class};
 use crate::techniques::culling::Interest;
 use crate::techniques::decals::Decals;
 use crate::techniques::labels::Named;
 use crate::techniques::mirrors::{self, Mirrors};
 use crate::techniques::own_bits::{Round, Shining};
-use crate::techniques::planar::{self as planar_shadows, Receivers};
+use crate::techniques::planar::Receivers;
 use crate::techniques::surfaces::Known;
+use crate::techniques::workspace::{Lent, Workspace};
 use crate::techniques::{self, bounds, depth_bounds, playground, show, surfaces, wide};
-
-/// Why a frame cannot be planned: one line each.
-#[derive(Debug, Error)]
-pub enum StageError {
-    /// The settings ask for a camera that is not there.
-    #[error(transparent)]
-    Camera(#[from] CameraError),
-    /// The settings ask for a light that is not there.
-    #[error("no light {0} in this scene: it has {1}")]
-    Light(usize, usize),
-    /// A size that no picture has.
-    #[error("a picture of {0} x {1} pixels is not possible here: each side must be 1 to {2}")]
-    Size(u32, u32, u32),
-    /// Not 1 or 4.
-    #[error("{0} samples a pixel are not possible: 1 or 4")]
-    Samples(u32),
-    /// The time is NaN, infinite or negative.
-    #[error("the time must be a number of seconds from 0 on, not {0}")]
-    Time(f64),
-    /// Lights with a size, each counted as many points.
-    #[error("{0} points of lights are too many: {MOST_POINTS} at most; fewer points a light (--area-samples) are fewer")]
-    Points(usize),
-    /// A fault in the plan: a bug in this program, caught before the GPU sees it.
-    #[error("the frame plan is faulty: {0}")]
-    Plan(#[from] Fault),
-}
-
-/// Points of lights in one frame: each is counted by itself.
-const MOST_POINTS: usize = 2048;
-
-/// The scene at the settings' time, and the validated plan of its frame.
-///
-/// # Errors
-/// Settings that ask for what is not there.
-pub fn stage(settings: &Settings, scene: &Scene, capabilities: &Capabilities) -> Result<(Pose, FramePlan), StageError> {
-    stage_frame(settings, scene, capabilities, 0)
-}
-
-/// How many frames make one picture: those whose mean it is, or one.
-#[must_use]
-pub fn frames(settings: &Settings) -> u32 {
-    // Exact values and false colours have no mean.
-    let one_frame = !matches!(settings.show, Show::Final | Show::Volumes | Show::Wireframe);
-    if one_frame || dissolve::wanted(settings).is_some() { 1 } else { settings.lighting.accumulate.clamp(1, MAX_FRAMES) }
-}
-
-/// [`stage`] for one of the [`frames`], from 0: each has other points of the lights with a size, and all
-/// but the first look past the middle of their pixels by less than half of one. Drawn in order, each leaves
-/// the mean of all so far.
-///
-/// # Errors
-/// Settings that ask for what is not there.
-pub fn stage_frame(
-    settings: &Settings,
-    scene: &Scene,
-    capabilities: &Capabilities,
-    frame: u32,
-) -> Result<(Pose, FramePlan), StageError> {
-    stage_changed(settings, scene, capabilities, frame, |_| ())
-}
-
-/// [`stage_frame`] of a moment that `change` has made another one: it is given the scene's pose before light comes
-/// off mirrors, and before lights with a size become points.
-///
-/// # Errors
-/// Settings that ask for what is not there.
-pub fn stage_changed(
-    settings: &Settings,
-    scene: &Scene,
-    capabilities: &Capabilities,
-    frame: u32,
-    change: impl FnOnce(&mut Pose),
-) -> Result<(Pose, FramePlan), StageError> {
-    let [width, height] = settings.size;
-    let largest = capabilities.max_size.min(crate::settings::MAX_SIZE);
-    if width == 0 || height == 0 || width > largest || height > largest {
-        return Err(StageError::Size(width, height, largest));
-    }
-    if ![1, 4].contains(&settings.samples) {
-        return Err(StageError::Samples(settings.samples));
-    }
-    if !settings.time.is_finite() || settings.time < 0.0 {
-        return Err(StageError::Time(settings.time));
-    }
-    let in_force = planar_shadows::in_force(&failures::while_on(settings));
-    let settings = &in_force;
-    let mut pose = pose(scene, settings.time, settings.animation.unwrap_or(scene.default_animation), &settings.lights);
-    change(&mut pose);
-    if settings.mirrors.light == MirrorLight::Virtual {
-        pose.add_lights_off(scene, &scene.mirrors_in_force(&settings.mirrors).0);
-    }
-    if settings.show.looks_at_light() && settings.light >= pose.lights.len() {
-        return Err(StageError::Light(settings.light, pose.lights.len()));
-    }
-    let sampling = Sampling { samples: settings.lighting.area_samples, frame };
-    let points = pose.lights.iter().map(|light| sampling.points(light) as usize).sum();
-    if points > MOST_POINTS {
-        return Err(StageError::Points(points));
-    }
-    pose.expand_lights(sampling, settings.light, settings.lighting.light_sample);
-    let mut camera = Camera::choose(settings, scene, &pose)?;
-    let frames = frames(settings);
-    if frame > 0 {
-        let beside = DVec2::from(sequence(frame.into(), 0)) - 0.5;
-        camera.shift = beside * 2.0 / DVec2::new(width.into(), height.into());
-    }
-    let gather = (frames > 1).then_some(Gather { frame, frames });
-    let mut plan = plan(settings, scene, &pose, camera, capabilities, gather);
-    if let Some(into) = dissolve::wanted(settings) {
-        let second = Settings { technique: into, ..settings.clone() };
-        let second = self::plan(&second, scene, &pose, camera, capabilities, gather);
-        plan = dissolve::mixed(plan, second, &settings.dissolve, settings.time);
-    }
-    if let Some(failure) = settings.failure {
-        failures::spoil(failure, &mut plan);
-    }
-    silhouettes::choose(&mut plan, settings.silhouettes, scene, &pose, capabilities);
-    validate(&plan)?;
-    Ok((pose, plan))
-}
 
 /// The frame, in order: ambient light and depth; then light by light, volumes into the stencil and
 /// light where the count is zero; then what is blended, what is shown of the inner works, and the
 /// picture. A frame of one light at most goes a shorter way: depth, volumes, and each surface once.
+///
+/// It is planned in the workspace's memory, and in that of a plan that nobody needs any more.
 #[must_use]
 pub fn plan(
     settings: &Settings,
@@ -175,8 +54,9 @@ pub fn plan(
     camera: Camera,
     capabilities: &Capabilities,
     gather: Option<Gather>,
+    memory: (&Workspace, FramePlan),
 ) -> FramePlan {
-    let mut frame = Frame::new(settings, scene, pose, camera, capabilities);
+    let mut frame = Frame::new(settings, (scene, pose), camera, capabilities, memory);
     frame.plan.gather = gather;
     let whole = frame.whole();
     if settings.show == Show::Playground {
@@ -320,13 +200,15 @@ struct Frame<'a> {
     pose: &'a Pose,
     capabilities: &'a Capabilities,
     /// The view whose steps are planned.
-    outlook: Outlook,
+    outlook: Outlook<'a>,
     /// What each view sees, where there are mirrors.
     sights: Vec<Sight>,
     mirrors: Mirrors,
     decals: Decals,
     /// Of each instance, whether it has a halo.
-    glowing: Vec<bool>,
+    glowing: Lent<'a, bool>,
+    /// Where lists are made.
+    workspace: &'a Workspace,
     receivers: Receivers,
     /// What the stencil was cleared to last, and which bits are no longer so.
     stored: u8,
@@ -335,7 +217,13 @@ struct Frame<'a> {
 }
 
 impl<'a> Frame<'a> {
-    fn new(settings: &'a Settings, scene: &'a Scene, pose: &'a Pose, camera: Camera, capabilities: &'a Capabilities) -> Self {
+    fn new(
+        settings: &'a Settings,
+        (scene, pose): (&'a Scene, &'a Pose),
+        camera: Camera,
+        capabilities: &'a Capabilities,
+        (workspace, before): (&'a Workspace, FramePlan),
+    ) -> Self {
         let exact_values = matches!(
             settings.show,
             Show::Shadow
@@ -351,8 +239,8 @@ impl<'a> Frame<'a> {
         let each_sample = !reads_samples || capabilities.wide_four_samples;
         let dissolves = dissolve::wanted(settings).is_some();
         let samples = if exact_values || dissolves || !capabilities.four_samples || !each_sample { 1 } else { settings.samples };
-        let mut notes: Vec<_> =
-            capabilities.lacks().iter().map(|lack| format!("no {}: {}", lack.feature, lack.instead)).collect();
+        let FramePlan { mut notes, mut views, mut points, volumes, steps, .. } = before.emptied();
+        notes.extend(capabilities.lacks().iter().map(|lack| format!("no {}: {}", lack.feature, lack.instead)));
         if dissolves && settings.samples != 1 {
             notes.push("what dissolves does so by whole pixels: 1 sample a pixel".into());
         }
@@ -365,25 +253,28 @@ impl<'a> Frame<'a> {
         if !each_sample && settings.samples != 1 {
             notes.push("this device counts wide, and puts solids together, with 1 sample a pixel only".into());
         }
+        views.push(View::of_eye("eye", camera, settings.size));
+        points.extend(pose.lights.iter().map(|light| light.of));
         let plan = FramePlan {
             size: settings.size,
             samples,
             exposure: scene.exposure * settings.exposure.exp2(),
             smooth_terminator: settings.smooth_terminator,
             budget: BitBudget::of_bits(settings.counting.bits),
-            views: vec![View::of_eye("eye", camera, settings.size)],
-            volumes: Vec::new(),
-            steps: Vec::new(),
+            views,
+            volumes,
+            steps,
             accumulation: settings.lighting.accumulation,
             gather: None,
-            points: pose.lights.iter().map(|light| light.of).collect(),
+            points,
             notes,
             reflections: Reflections::default(),
             breaks: None,
         };
-        let outlook = Outlook::new(scene, pose, (0, &plan.views[0]), None);
+        let outlook = Outlook::new((scene, pose), (0, &plan.views[0]), None, workspace);
         let (sights, mirrors, receivers) = (Vec::new(), Mirrors::default(), Receivers::default());
-        let glowing = scene.glowing(&settings.halos.edits);
+        let mut glowing = workspace.flags.lend();
+        scene.find_glowing(&settings.halos.edits, &mut glowing);
         let mut frame = Self {
             settings,
             scene,
@@ -394,6 +285,7 @@ impl<'a> Frame<'a> {
             mirrors,
             receivers,
             glowing,
+            workspace,
             decals: Decals::default(),
             stored: 0,
             used: 0,
@@ -495,11 +387,11 @@ impl<'a> Frame<'a> {
         for step in round.steps {
             self.push(Step { action: step.action.onto(Target::Direct), ..step });
         }
-        let reached = shining.map(|shining| self.reached(shining.light)).unwrap_or_default();
-        let only = shining.map(|&Shining { light, .. }| surfaces::OnlyLight {
+        let reached = shining.map(|shining| self.reached(shining.light));
+        let only = shining.zip(reached.as_ref()).map(|(&Shining { light, .. }, reached)| surfaces::OnlyLight {
             light,
             shape: (&self.pose.lights[light]).into(),
-            reached: &reached,
+            reached,
             dark: budget.map(|budget| surfaces::Dark { budget, scissor }),
         });
         self.extend(surfaces::finished(groups, only.as_ref(), whole));
@@ -508,7 +400,14 @@ impl<'a> Frame<'a> {
 
     /// What surfaces are grouped by.
     fn known(&self) -> Known<'_> {
-        Known { scene: self.scene, pose: self.pose, mirrors: &self.mirrors, decals: &self.decals, places: &self.outlook.places }
+        Known {
+            scene: self.scene,
+            pose: self.pose,
+            mirrors: &self.mirrors,
+            decals: &self.decals,
+            places: &self.outlook.places,
+            workspace: self.workspace,
+        }
     }
 
     /// The steps from the sum of all light to the picture.

@@ -25,7 +25,8 @@
 //! - [`frame::FramePlan`] is the heart: a list of [`frame::Step`]s, each with a sentence on what it is for
 //!   and its *whole* depth, stencil, blend and cull state, in ids and values only. So a frame can be
 //!   printed, compared with a stored text, checked and explained in the panel without a GPU.
-//! - [`director::plan`] is the only place where the order of passes is written, and reads aloud as the frame.
+//! - [`director::plan`] is the only place where the order of passes is written, and reads aloud as the frame. Frame after
+//!   frame is planned in the same memory ([`director::Planner`], [`techniques::workspace`]): it is memory, not state.
 //! - [`frame::validate::validate`] refuses a plan that tests bits nobody set, writes bits that are not its
 //!   own, or counts a volume inside out.
 //! - [`failures::spoil`] makes a classic mistake in a finished plan where the settings ask for one: a pure

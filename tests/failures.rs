@@ -11,6 +11,7 @@ use obscura::frame::validate::validate;
 use obscura::frame::{Camera, Capabilities};
 use obscura::scene::{Pose, Scene, stock};
 use obscura::settings::{CameraChoice, Failure, SceneChoice, Settings, Show};
+use obscura::techniques::workspace::Workspace;
 use obscura::truth::{Verdict, World};
 
 /// Wrong pixels that a demonstration of this size shows at least.
@@ -98,7 +99,9 @@ fn a_spoiled_plan_breaks_its_own_rule_and_no_other() {
 
     // What `stage` does, in its parts: the plan is made by the failure's technique, then spoiled.
     let camera = Camera::choose(&settings, &scene, &pose).unwrap();
-    let mut parts = director::plan(&while_on(&settings), &scene, &pose, camera, &Capabilities::complete(), None);
+    let (workspace, before) = (Workspace::default(), plan.clone());
+    let mut parts =
+        director::plan(&while_on(&settings), &scene, &pose, camera, &Capabilities::complete(), None, (&workspace, before));
     assert_ne!(parts, plan);
     spoil(failure, &mut parts);
     assert_eq!(parts, plan);

@@ -22,7 +22,7 @@ use super::session::{Drawn, Exhibit, Session};
 use super::surface::{AFTER_TIMEOUT, After, Before, SurfaceState};
 use super::ui::{Action, FrameNumbers, Tone, Topic, style};
 use super::{AppError, Wake, WindowOptions, store};
-use crate::director::stage_frame;
+use crate::director::{Planner, stage_frame};
 use crate::frame::Gather;
 use crate::headless::HeadlessError;
 use crate::headless::verify::Shots;
@@ -37,6 +37,7 @@ const REBUILDS: u32 = 3;
 /// The application that winit runs.
 pub(super) struct Shell {
     session: Session,
+    planner: Planner,
     options: WindowOptions,
     proxy: EventLoopProxy<Wake>,
     live: Option<Live>,
@@ -54,6 +55,7 @@ impl Shell {
     pub fn new(session: Session, options: WindowOptions, proxy: EventLoopProxy<Wake>) -> Self {
         Self {
             session,
+            planner: Planner::default(),
             options,
             proxy,
             live: None,
@@ -267,7 +269,8 @@ impl Shell {
         let together = session.put_together(|scene| screen.set_scene(scene).map_err(|error| error.to_string()));
         let Some(loaded) = &session.loaded else { return };
         let staged = together.and_then(|()| {
-            let staged = stage_frame(&session.settings, &loaded.scene, screen.context.capabilities(), frame);
+            let capabilities = screen.context.capabilities();
+            let staged = self.planner.stage_frame(&session.settings, &loaded.scene, capabilities, frame);
             staged.map_err(|error| error.to_string())
         });
         session.drawn_from = Some(session.settings.clone());
@@ -284,7 +287,9 @@ impl Shell {
         match result {
             Ok((drawn, stats, staging)) => {
                 session.next_frame = drawn.plan.gather.and_then(Gather::next);
-                session.drawn = Some(drawn);
+                if let Some(Drawn { pose, plan, .. }) = session.drawn.replace(drawn) {
+                    self.planner.take_back((pose, plan));
+                }
                 session.dismiss(Topic::Frame);
                 if self.pictures == 0 {
                     tracing::info!("first picture drawn");

@@ -15,9 +15,10 @@ use crate::settings::Show;
 use crate::techniques::counting::LightCount;
 use crate::techniques::culling::{Audience, Interest, common, light_rect};
 use crate::techniques::surfaces::Place;
+use crate::techniques::workspace::{Casters, Reached};
 use crate::techniques::{self, Caster, counting, planar, show};
 
-impl Frame<'_> {
+impl<'a> Frame<'a> {
     /// The pixels a light can reach; `None` where its bounds are off screen.
     pub(super) fn light_rect(&self, light: usize) -> Option<[u32; 4]> {
         let clip_from_world = self.view().camera.clip_from_world();
@@ -32,12 +33,14 @@ impl Frame<'_> {
     }
 
     /// Which instances lie, at least in part, within a light's range.
-    pub(super) fn reached(&self, light: usize) -> Vec<bool> {
+    pub(super) fn reached(&self, light: usize) -> Reached<'a> {
         let light = &self.pose.lights[light];
         let within = |node| {
             !light.range.is_finite() || self.pose.world_bounds(self.scene, node).distance_to(light.position) <= light.range
         };
-        self.scene.instances().map(|(node, ..)| within(node)).collect()
+        let workspace = self.workspace;
+        let instances = workspace.flags.collect(self.outlook.nodes.iter().map(|&node| within(node)));
+        Reached { instances, lists: &workspace.surfaces }
     }
 
     /// How the chosen technique counts this light's volumes.
@@ -49,6 +52,7 @@ impl Frame<'_> {
         let scissor = self.light_rect(light);
         let count = match (scissor, self.pose.lights[light].off) {
             (None, _) => None,
+            (Some(_), None) if row.groups.is_empty() => None,
             (Some(scissor), Some(off)) => Some(self.count_off_mirror(row, light, off, scissor)),
             (Some(scissor), None) => {
                 let mut volumes = std::mem::take(&mut self.plan.volumes);
@@ -91,7 +95,7 @@ impl Frame<'_> {
     }
 
     /// What casts shadows before a light that is counted in `scissor`; `None` where nothing does.
-    pub(super) fn casters(&self, light: usize, scissor: [u32; 4]) -> Option<Vec<Caster<'_>>> {
+    pub(super) fn casters(&self, light: usize, scissor: [u32; 4]) -> Option<Casters<'_>> {
         let posed = &self.pose.lights[light];
         if !posed.shadows {
             return None;
@@ -99,8 +103,7 @@ impl Frame<'_> {
         let audience = self.audience(posed, scissor);
         let within = audience.receivers_within(&self.outlook.receivers, self.view().camera.eye);
         let caster = |(instance, _)| self.caster(&audience, &within, (posed, instance), Piece::Whole, None);
-        // A caster is large, and most instances are some: one allocation, and nothing is moved again.
-        let mut casters = Vec::with_capacity(self.outlook.nodes.len());
+        let mut casters = self.workspace.casters();
         casters.extend(self.casting().filter_map(caster));
         Some(casters)
     }
@@ -181,12 +184,21 @@ impl Frame<'_> {
             solid,
             overflow: counting.overflow,
             values: self.settings.show == Show::Stencil,
+            workspace: self.workspace,
         }
     }
 
     /// What one light's shadows could matter to in the view.
     pub(super) fn audience<'s>(&'s self, posed: &'s PosedLight, scissor: [u32; 4]) -> Audience<'s> {
         let (view, interest) = (self.view(), self.settings.show.into());
-        Audience::new(posed, &self.outlook.stalls, view, interest, self.settings.culling.on, scissor, view.picture)
+        Audience::new(
+            posed,
+            (&self.outlook.stalls, self.workspace),
+            view,
+            interest,
+            self.settings.culling.on,
+            scissor,
+            view.picture,
+        )
     }
 }

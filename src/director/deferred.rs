@@ -31,7 +31,7 @@ impl Frame<'_> {
         match (asked, refusal) {
             (Shading::Forward, _) => false,
             (Shading::Auto, Some(_)) => false,
-            (Shading::Auto, None) => lights > 1 || deferred::triangles(self.scene, groups) >= MANY_TRIANGLES,
+            (Shading::Auto, None) => lights > 1 || deferred::triangles(self.scene, &self.outlook.nodes, groups) >= MANY_TRIANGLES,
             (Shading::Deferred, None) => true,
             (Shading::Deferred, Some(why)) => {
                 self.plan.notes.push(format!("no deferred shading here: {why}"));

@@ -13,7 +13,7 @@ use super::Frame;
 use crate::frame::plan::FramePlan;
 use crate::frame::state::{Blend, State};
 use crate::frame::stencil::{BitBudget, StencilState};
-use crate::frame::{Action, Clear, Draw, DrawSet, Program, Step};
+use crate::frame::{Action, Clear, Draw, DrawSet, Program, Step, VolumePart};
 use crate::settings::{Dissolve, Settings, Show, Technique};
 
 /// Whether, and into what, these settings dissolve their picture.
@@ -84,7 +84,7 @@ fn moved_on(mut step: Step, by: usize) -> Step {
     if let Action::Draw(draw) = &mut step.action
         && let DrawSet::Volumes(parts) = &mut draw.set
     {
-        parts.iter_mut().for_each(|part| part.volume += by);
+        *parts = parts.iter().map(|part| VolumePart { volume: part.volume + by, ..*part }).collect();
     }
     step
 }

@@ -10,6 +10,7 @@ use crate::scene::OffMirror;
 use crate::settings::Technique;
 use crate::techniques::counting::LightCount;
 use crate::techniques::culling::{self};
+use crate::techniques::workspace::Casters;
 use crate::techniques::{Caster, Row, off_mirror};
 
 impl Frame<'_> {
@@ -23,7 +24,8 @@ impl Frame<'_> {
             Some(beam) => {
                 let wide = row.technique == Technique::Wide;
                 let by = crate::techniques::row(if wide { Technique::Wide } else { Technique::ZFail });
-                let casters = if row.groups.is_empty() { Vec::new() } else { self.casters_off(light, off, scissor) };
+                let casters =
+                    if row.groups.is_empty() { self.workspace.casters() } else { self.casters_off(light, off, scissor) };
                 off_mirror::count(by, &beam, &casters, &ask, &mut volumes)
             }
         };
@@ -43,9 +45,10 @@ impl Frame<'_> {
     }
 
     /// What stands before the mirror, and its reflections.
-    fn casters_off(&self, light: usize, off: OffMirror, scissor: [u32; 4]) -> Vec<Caster<'_>> {
+    fn casters_off(&self, light: usize, off: OffMirror, scissor: [u32; 4]) -> Casters<'_> {
         let posed = &self.pose.lights[light];
-        let Some(plane) = off.plane.filter(|_| posed.shadows) else { return Vec::new() };
+        let mut casters = self.workspace.casters();
+        let Some(plane) = off.plane.filter(|_| posed.shadows) else { return casters };
         let slack = SLACK * f64::from(self.scene.bounds(self.pose).radius());
         let audience = self.audience(posed, scissor);
         let within = audience.receivers_within(&self.outlook.receivers, self.view().camera.eye);
@@ -53,7 +56,6 @@ impl Frame<'_> {
         // Through the very mirror that the light comes off, what is cut off a caster is not seen of it either.
         let same_mirror = |window: &crate::frame::Window| window.surface == surface && window.plane.dot(plane) > 0.0;
         let cut_alike = self.view().through.as_ref().is_some_and(same_mirror);
-        let mut casters = Vec::new();
         for (instance, node) in self.casting() {
             let world_from_object = &self.pose.world_from_object[node];
             let corners = self.pose.bounds(self.scene, node).corners();

@@ -15,6 +15,7 @@ use crate::techniques::own_bits::{Round, Shining};
 use crate::techniques::planar::{self, Leaves, Receivers, Stand, Thrower};
 use crate::techniques::show;
 use crate::techniques::surfaces::{self, SurfaceGroup};
+use crate::techniques::workspace::Reached;
 
 /// A light, and what may throw its shadows.
 struct Lamp {
@@ -166,8 +167,9 @@ impl Frame<'_> {
     fn throwers(&self, light: usize, rect: [u32; 4]) -> Vec<Thrower> {
         let everywhere = self.settings.planar.mode == PlanarMode::Naive;
         let hybrid = self.settings.planar.mode == PlanarMode::Hybrid;
-        let casters = self.casters(light, rect).unwrap_or_default();
-        let throwers = casters.iter().map(|caster| Thrower::new(caster, everywhere, self.whole()));
+        let casters = self.casters(light, rect);
+        let throwers =
+            casters.iter().flat_map(|casters| casters.iter()).map(|caster| Thrower::new(caster, everywhere, self.whole()));
         throwers.filter(|thrower| !(hybrid && thrower.cut_out)).collect()
     }
 
@@ -185,10 +187,10 @@ impl Frame<'_> {
         self.lit_among(&self.reached(light), (light, rect), groups, stencil)
     }
 
-    /// The same on those of the surfaces whose instances are `reached`.
+    /// The same on those of the surfaces that are `reached`.
     fn lit_among(
         &self,
-        reached: &[bool],
+        reached: &Reached<'_>,
         (light, rect): (usize, [u32; 4]),
         groups: &[&SurfaceGroup],
         stencil: StencilState,
@@ -255,14 +257,15 @@ impl Frame<'_> {
         let (mut now, mut next) = (value, value + 1);
         for lamp in lamps {
             let step = if now < next { StencilOp::IncrementWrap } else { StencilOp::DecrementWrap };
-            let reached = self.reached(lamp.light);
-            if !stand.is_among(&reached) {
+            let mut reached = self.reached(lamp.light);
+            if !stand.is_among(&reached.instances) {
                 continue;
             }
             // All of its pixels, also where the light does not reach: they must go on together.
-            let (all, groups) = (vec![true; reached.len()], stand.groups.iter().collect::<Vec<_>>());
+            reached.instances.fill(true);
+            let groups = stand.groups.iter().collect::<Vec<_>>();
             let stencil = StencilState::move_on(self.plan.budget, step);
-            let steps = self.lit_among(&all, (lamp.light, self.whole()), &groups, stencil);
+            let steps = self.lit_among(&reached, (lamp.light, self.whole()), &groups, stencil);
             if steps.is_empty() {
                 continue;
             }
@@ -275,7 +278,7 @@ impl Frame<'_> {
     /// Where any light is blocked a receiver is drawn anew (K section 5), and each light added again that is not.
     fn relight(&mut self, lamps: &[Lamp], stand: &Stand, value: u8) {
         let (budget, whole) = (self.plan.budget, self.whole());
-        let reaches: Vec<_> = lamps.iter().filter(|lamp| stand.is_among(&self.reached(lamp.light))).collect();
+        let reaches: Vec<_> = lamps.iter().filter(|lamp| stand.is_among(&self.reached(lamp.light).instances)).collect();
         for lamp in &reaches {
             self.throw(lamp, stand, Leaves::Next(value, StencilOp::IncrementWrap));
         }

@@ -173,11 +173,11 @@ impl Frame<'_> {
         let steps = round.steps;
         self.extend_onto(Target::Direct, steps);
         let shining = round.lights.first().copied();
-        let reached = shining.map(|shining| self.reached(shining.light)).unwrap_or_default();
-        let only = shining.map(|Shining { light, budget, .. }| surfaces::OnlyLight {
+        let reached = shining.map(|shining| self.reached(shining.light));
+        let only = shining.zip(reached.as_ref()).map(|(Shining { light, budget, .. }, reached)| surfaces::OnlyLight {
             light,
             shape: (&self.pose.lights[light]).into(),
-            reached: &reached,
+            reached,
             dark: budget.map(|budget| surfaces::Dark { budget, scissor: whole }),
         });
         if depth_first {
@@ -191,7 +191,7 @@ impl Frame<'_> {
     /// room covers what lies behind it, and what is reflected shows wherever nothing does.
     fn draw_unbounded(&mut self, open: &[(SurfaceGroup, usize)]) {
         for (number, (_, child)) in open.iter().enumerate() {
-            let outer: Outlook = self.look_from(*child);
+            let outer = self.look_from(*child);
             self.used = u8::MAX;
             if number == 0 {
                 self.push(mirrors::cover(&self.plan.views[*child], Cover::Light));
@@ -211,7 +211,7 @@ impl Frame<'_> {
     fn draw_textures(&mut self, open: &[(SurfaceGroup, usize)]) {
         for (_, child) in open {
             self.clear_all([0.0; 4], 0);
-            let outer: Outlook = self.look_from(*child);
+            let outer = self.look_from(*child);
             self.used = u8::MAX;
             self.push(mirrors::cover(&self.plan.views[*child], Cover::Light));
             self.draw_view(false);
@@ -230,7 +230,7 @@ impl Frame<'_> {
             let target = if cover == Cover::Finished { Target::Direct } else { Target::Scene };
             let tag = self.mirrors.tag(group, &self.plan, *child);
             self.plan.steps.push(onto(target, tag));
-            let outer: Outlook = self.look_from(*child);
+            let outer = self.look_from(*child);
             self.used = u8::MAX;
             self.push(mirrors::cover(&self.plan.views[*child], cover));
             draw(self);
@@ -310,7 +310,7 @@ impl Frame<'_> {
         self.clear_all(cases::BACKGROUND, 0);
         for number in 0..planned.len() {
             let view = (number, &self.plan.views[number]);
-            self.outlook = Outlook::new(self.scene, self.pose, view, None);
+            self.outlook = Outlook::new((self.scene, self.pose), view, None, self.workspace);
             let groups = surfaces::opaque_groups(self.known(), self.view(), size, Texturing::EachLight);
             let [r, g, b] = mirrors::path_color(self.view().path());
             let why = "Every view's room in its colour, where it seems to stand.";
@@ -321,7 +321,7 @@ impl Frame<'_> {
                 self.extend(bounds::cut(&groups, self.whole()));
             }
         }
-        self.outlook = Outlook::new(self.scene, self.pose, (0, &self.plan.views[0]), None);
+        self.outlook = Outlook::new((self.scene, self.pose), (0, &self.plan.views[0]), None, self.workspace);
         self.push(show::copy(self.whole()));
         let strokes = birdseye::strokes((&above, &eye, self.pose), &planned, &self.sights, mirrors::path_color, size);
         self.push(bounds::step(strokes, self.whole()));

@@ -1,6 +1,6 @@
 //! Which volumes' silhouettes the device finds, and why the others' it does not.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use glam::DVec4;
 
@@ -9,9 +9,16 @@ use crate::geometry::arena::{Fixed, most_indices, posed_words};
 use crate::geometry::{Outline, VolumeParts, light_in_object};
 use crate::scene::{Pose, Scene};
 use crate::settings::Backend;
+use crate::techniques::workspace::Workspace;
 
 /// Gives a finished plan's volumes to the compute shader, as far as it can build them; a note says what stays.
-pub(super) fn choose(plan: &mut FramePlan, backend: Backend, scene: &Scene, pose: &Pose, capabilities: &Capabilities) {
+pub(super) fn choose(
+    plan: &mut FramePlan,
+    backend: Backend,
+    (scene, pose): (&Scene, &Pose),
+    capabilities: &Capabilities,
+    workspace: &Workspace,
+) {
     if backend.is_cpu() {
         return;
     }
@@ -23,12 +30,14 @@ pub(super) fn choose(plan: &mut FramePlan, backend: Backend, scene: &Scene, pose
     let mut budget = Budget::new(scene, largest);
     let mut left: BTreeMap<&str, usize> = BTreeMap::new();
     // One caster's volumes in one light are built once, whatever sees them.
-    let mut decided: HashMap<_, Result<(), &str>> = HashMap::new();
+    let mut decided = workspace.decided.borrow_mut();
+    decided.clear();
+    let nodes = workspace.numbers.collect(scene.instances().map(|(node, ..)| node));
     for volume in plan.volumes.iter_mut().filter(|volume| volume.method != Method::Dropped) {
         let why_not = unlike(volume).map_or_else(
             || {
                 let shape = (volume.instance, volume.light, volume.reflected.is_some(), volume.extrusion.is_some());
-                *decided.entry(shape).or_insert_with(|| budget.take(volume, scene, pose))
+                *decided.entry(shape).or_insert_with(|| budget.take(volume, nodes[volume.instance], scene, pose))
             },
             Err,
         );
@@ -72,10 +81,10 @@ impl Budget {
         Self { facing: words, indices: words, poses: words.saturating_sub(rest), fits }
     }
 
-    fn take(&mut self, volume: &VolumePlan, scene: &Scene, pose: &Pose) -> Result<(), &'static str> {
+    fn take(&mut self, volume: &VolumePlan, node: usize, scene: &Scene, pose: &Pose) -> Result<(), &'static str> {
         /// Metres: beyond, single precision might run out of exponents.
         const FAR: f64 = 1e9;
-        let Some((node, _, mesh)) = scene.instances().nth(volume.instance) else { return Err("their casters are gone") };
+        let Some(mesh) = scene.nodes[node].mesh.map(|mesh| &scene.meshes[mesh]) else { return Err("their casters are gone") };
         let light = light_in_object(&volume.placed(&pose.world_from_object[node]), &pose.lights[volume.light]);
         let bounds = pose.bounds(scene, node);
         let size = f64::from(bounds.min.abs().max(bounds.max.abs()).max_element());

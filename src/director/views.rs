@@ -16,6 +16,7 @@ use crate::techniques::culling::Stalls;
 use crate::techniques::mirrors::Mirrors;
 use crate::techniques::off_mirror::more_ambient;
 use crate::techniques::surfaces::Place;
+use crate::techniques::workspace::{Lent, Workspace};
 
 /// Views in one frame: mirrors that show each other may have more than anyone waits for.
 const MOST_VIEWS: usize = 512;
@@ -24,28 +25,33 @@ const MOST_VIEWS: usize = 512;
 pub const SLACK: f64 = 1e-5;
 
 /// One view, and what is asked of it again and again.
-pub(super) struct Outlook {
+pub(super) struct Outlook<'w> {
     /// Its number among the plan's.
     pub view: usize,
     /// Between its eye and its near rectangle.
     pub near_pyramid: NearPyramid,
     /// Of each instance, whether it reaches into that pyramid, once asked.
-    pub across: Vec<OnceCell<bool>>,
+    pub across: Lent<'w, OnceCell<bool>>,
     /// Where everything is.
-    pub stalls: Stalls,
+    pub stalls: Stalls<'w>,
     /// Every surface, and the eye: volumes need not reach farther.
     pub receivers: Aabb,
     /// Where each instance lies before the mirror that is looked through.
-    pub places: Vec<Place>,
+    pub places: Lent<'w, Place>,
     /// The node of each instance.
-    pub nodes: Vec<usize>,
+    pub nodes: Lent<'w, usize>,
 }
 
-impl Outlook {
+impl<'w> Outlook<'w> {
     /// Of a view; through a mirror, all that is seen of the world lies in `window`.
-    pub fn new(scene: &Scene, pose: &Pose, (number, view): (usize, &View), window: Option<Body>) -> Self {
+    pub fn new(
+        (scene, pose): (&Scene, &Pose),
+        (number, view): (usize, &View),
+        window: Option<Body>,
+        workspace: &'w Workspace,
+    ) -> Self {
         let camera = &view.camera;
-        let stalls = Stalls::new(scene, pose, view, window);
+        let stalls = Stalls::new((scene, pose), view, window, workspace);
         let place = |instance: usize, node: usize| {
             let Some(window) = &view.through else { return Place::Before };
             let world_from_object = &pose.world_from_object[node];
@@ -59,12 +65,12 @@ impl Outlook {
                 Place::Across
             }
         };
-        let nodes: Vec<_> = scene.instances().map(|(node, ..)| node).collect();
-        let places = nodes.iter().enumerate().map(|(instance, &node)| place(instance, node)).collect();
+        let nodes = workspace.numbers.collect(scene.instances().map(|(node, ..)| node));
+        let places = workspace.places.collect(nodes.iter().enumerate().map(|(instance, &node)| place(instance, node)));
         Self {
             view: number,
             near_pyramid: NearPyramid::of(camera.eye, camera.near_rectangle()),
-            across: vec![OnceCell::new(); nodes.len()],
+            across: workspace.answers.collect(nodes.iter().map(|_| OnceCell::new())),
             stalls,
             receivers: scene.bounds(pose).union(&Aabb::around(camera.eye, camera.eye)),
             places,
@@ -73,7 +79,7 @@ impl Outlook {
     }
 }
 
-impl Frame<'_> {
+impl<'a> Frame<'a> {
     /// The view whose steps are planned.
     pub(super) fn view(&self) -> &View {
         &self.plan.views[self.outlook.view]
@@ -86,9 +92,9 @@ impl Frame<'_> {
     }
 
     /// Another view's steps are planned from now on; gives what was known of the one before.
-    pub(super) fn look_from(&mut self, view: usize) -> Outlook {
+    pub(super) fn look_from(&mut self, view: usize) -> Outlook<'a> {
         let window = self.sights[view].body();
-        let outlook = Outlook::new(self.scene, self.pose, (view, &self.plan.views[view]), Some(window));
+        let outlook = Outlook::new((self.scene, self.pose), (view, &self.plan.views[view]), Some(window), self.workspace);
         std::mem::replace(&mut self.outlook, outlook)
     }
 

@@ -48,7 +48,7 @@ pub(super) fn drop_dark_caps(plan: &mut FramePlan) {
 fn drop_parts(plan: &mut FramePlan, dropped: fn(Part) -> bool) {
     for draw in counting(plan) {
         if let DrawSet::Volumes(parts) = &mut draw.set {
-            parts.retain(|part| !dropped(part.part));
+            *parts = parts.iter().copied().filter(|part| !dropped(part.part)).collect();
         }
     }
     let empty = |draw: &Draw| matches!(&draw.set, DrawSet::Volumes(parts) if parts.is_empty());

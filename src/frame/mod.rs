@@ -5,6 +5,7 @@
 
 pub mod camera;
 pub mod capabilities;
+pub mod lists;
 pub mod plan;
 pub mod state;
 pub mod stencil;
@@ -14,6 +15,7 @@ pub mod validate;
 
 pub use camera::{Camera, CameraError};
 pub use capabilities::{Capabilities, Lack, WideCounts};
+pub use lists::List;
 pub use plan::{
     Case, Cutout, CutoutShape, FramePlan, Gather, Method, Piece, Projection, Reason, Reflections, View, VolumePlan, Window,
 };

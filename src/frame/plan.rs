@@ -15,7 +15,7 @@ use crate::geometry::{Enclosure, Flaw, LitPlane, VolumeParts};
 use crate::settings::{Accumulation, Backend};
 
 /// Everything that one frame does, in order: ids and values only.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct FramePlan {
     /// Pixels.
     pub size: [u32; 2],
@@ -48,6 +48,20 @@ pub struct FramePlan {
     /// ([`crate::failures`]).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub breaks: Option<Rule>,
+}
+
+impl FramePlan {
+    /// No frame, with room for one like this.
+    #[must_use]
+    pub fn emptied(self) -> Self {
+        let Self { mut views, mut volumes, mut steps, mut points, mut notes, .. } = self;
+        views.clear();
+        volumes.clear();
+        steps.clear();
+        points.clear();
+        notes.clear();
+        Self { views, volumes, steps, points, notes, ..Self::default() }
+    }
 }
 
 /// One of several frames whose mean is shown. Drawn again, it leaves the same mean.
@@ -505,7 +519,7 @@ impl FramePlan {
         let DrawSet::Surfaces(surfaces) = &draw.set else { return None };
         let behind = |of: &View| {
             let window = of.through.as_ref();
-            window.is_some_and(|window| window.parent == view && surfaces.as_slice() == [window.surface])
+            window.is_some_and(|window| window.parent == view && **surfaces == [window.surface])
         };
         self.views.iter().position(|of| of.texture.is_some() && behind(of))
     }

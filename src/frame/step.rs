@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::lists::List;
 use super::state::State;
 use crate::geometry::Enclosure;
 use crate::scene::{LightKind, PosedLight};
@@ -325,13 +326,13 @@ pub enum DrawSet {
     /// Everything on screen.
     FullScreen,
     /// Mesh primitives.
-    Surfaces(Vec<Surface>),
+    Surfaces(List<Surface>),
     /// Some triangles of mesh primitives.
     Runs(Vec<Run>),
     /// Mesh primitives, larger than they are.
     Swollen(Swollen),
     /// Parts of shadow volumes.
-    Volumes(Vec<VolumePart>),
+    Volumes(List<VolumePart>),
     /// A convex solid, both sides of it.
     Enclosure(Enclosure),
     /// Corners in clip space, three a triangle.

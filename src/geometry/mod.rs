@@ -37,7 +37,7 @@ pub use planar_shadow::LitPlane;
 pub use portion::Portion;
 pub use reach::{BOX_EDGES, Body};
 pub use sight::{Reflected, Sight};
-pub use silhouette::{Facing, Planes, Posed, light_in_object};
+pub use silhouette::{Facing, LazyPosed, Planes, Posed, light_in_object};
 pub use topology::{Topology, TopologyReport};
 pub use volume::{Caster, Outline, VolumeIndices, VolumeParts, VolumeScratch};
 pub use weld::Weld;

@@ -90,15 +90,21 @@ pub struct OverlapScratch {
     sweep: Sweep,
 }
 
+/// Some milliseconds.
+const PATIENCE: usize = 400_000;
+
 impl Default for OverlapScratch {
     fn default() -> Self {
-        /// Some milliseconds.
-        const PATIENCE: usize = 400_000;
         Self { patience: PATIENCE, seen: Vec::new(), sweep: Sweep::default() }
     }
 }
 
 impl OverlapScratch {
+    /// Other casters, with all patience again.
+    pub fn begin(&mut self) {
+        self.patience = PATIENCE;
+    }
+
     /// How often at most the volume of `caster` before `light` (object space, as
     /// [`super::volume::VolumeScratch::append`] takes it) winds around any point. A bound of
     /// `enough` or less is as good as any, and not made smaller.
@@ -444,6 +450,12 @@ pub struct Heap {
 }
 
 impl Heap {
+    /// Nothing is in it any more.
+    pub fn clear(&mut self) {
+        self.members.clear();
+        self.most = 0;
+    }
+
     /// Adds a caster whose own greatest winding is at most `bound`, unless the heap could then count
     /// beyond `limit`; says whether it did.
     ///

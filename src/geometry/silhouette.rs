@@ -10,6 +10,7 @@
 
 use std::fmt::{self, Debug, Formatter};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use glam::{DAffine3, DVec3, DVec4, Vec3, Vec4};
 use rayon::prelude::*;
@@ -157,9 +158,44 @@ impl Posed {
     #[must_use]
     pub fn new(topology: &Topology, positions: &[Vec3]) -> Self {
         let mut posed = Self::default();
-        topology.weld().gather(positions, &mut posed.welded);
-        posed.planes.build(topology, &posed.welded);
+        posed.find(topology, positions);
         posed
+    }
+
+    fn find(&mut self, topology: &Topology, positions: &[Vec3]) {
+        topology.weld().gather(positions, &mut self.welded);
+        self.planes.build(topology, &self.welded);
+    }
+}
+
+/// A [`Posed`] that is found when it is asked for, in the memory of the one before.
+#[derive(Debug, Default)]
+pub struct LazyPosed {
+    found: OnceLock<Posed>,
+    before: Mutex<Posed>,
+}
+
+impl Clone for LazyPosed {
+    fn clone(&self) -> Self {
+        Self { found: self.found.clone(), before: Mutex::default() }
+    }
+}
+
+impl LazyPosed {
+    /// Of a mesh whose vertices are at `positions`: the same ones until it is [forgotten](Self::forget).
+    pub fn get(&self, topology: &Topology, positions: &[Vec3]) -> &Posed {
+        self.found.get_or_init(|| {
+            let mut posed = std::mem::take(&mut *self.before.lock().unwrap_or_else(PoisonError::into_inner));
+            posed.find(topology, positions);
+            posed
+        })
+    }
+
+    /// The vertices move.
+    pub fn forget(&mut self) {
+        if let Some(posed) = self.found.take() {
+            *self.before.get_mut().unwrap_or_else(PoisonError::into_inner) = posed;
+        }
     }
 }
 

@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use super::{HeadlessError, check_exists, progress_bar};
 use crate::cli::{BenchRequest, check};
-use crate::director;
+use crate::director::{self, Planner};
 use crate::gpu::{Context, GpuError, Renderer, readback};
 use crate::scene::{LightKind, Pose, Scene};
 use crate::settings::{Settings, Technique};
@@ -161,6 +161,7 @@ pub fn bench(request: &BenchRequest) -> Result<Report, HeadlessError> {
 pub struct Bench {
     context: Context,
     renderer: Renderer,
+    planner: Planner,
 }
 
 impl Bench {
@@ -171,7 +172,7 @@ impl Bench {
     pub fn new(settings: &Settings) -> Result<Self, GpuError> {
         let context = Context::headless(settings.adapter.as_deref())?;
         let renderer = Renderer::new(&context, settings.shaders.as_deref())?;
-        Ok(Self { context, renderer })
+        Ok(Self { context, renderer, planner: Planner::default() })
     }
 
     /// The device's name.
@@ -244,16 +245,17 @@ impl Bench {
         output: &wgpu::TextureView,
         (number, radius): (u32, f64),
     ) -> Result<Frame, HeadlessError> {
-        let Self { context, renderer } = self;
+        let Self { context, renderer, planner } = self;
         let turns = f64::from(number % ROUND) / f64::from(ROUND);
         let gathered = number % director::frames(settings);
         let begun = Instant::now();
         let (pose, plan) =
-            director::stage_changed(settings, scene, context.capabilities(), gathered, |pose| go_round(pose, turns, radius))?;
+            planner.stage_changed(settings, scene, context.capabilities(), gathered, |pose| go_round(pose, turns, radius))?;
         let drawn = renderer.render(context, &plan, scene, &pose, output, readback::PICTURE_FORMAT)?;
         let submitted = begun.elapsed();
         context.wait_idle()?;
         let done = begun.elapsed();
+        planner.take_back((pose, plan));
         if let Some(error) = context.take_error() {
             return Err(GpuError::Device(error).into());
         }
@@ -268,7 +270,7 @@ impl Bench {
 
     /// How many fragments the volumes of a frame have, the lights at their places.
     fn fragments(&mut self, scene: &Scene, settings: &Settings, output: &wgpu::TextureView) -> Result<f64, HeadlessError> {
-        let Self { context, renderer } = self;
+        let Self { context, renderer, .. } = self;
         let (pose, plan) = director::stage(settings, scene, context.capabilities())?;
         let Some(counting) = fill::counted(&plan) else { return Ok(0.0) };
         renderer.render(context, &counting, scene, &pose, output, readback::PICTURE_FORMAT)?;

@@ -8,7 +8,7 @@ use super::json::{Report, Timings};
 use super::progress_bar;
 use super::save::{check_target, save_png};
 use crate::cli::{check, check_against, render_command};
-use crate::director;
+use crate::director::{self, Planner};
 use crate::gpu::{Context, GpuError, Renderer, readback};
 use crate::scene::Scene;
 use crate::settings::{Settings, Show};
@@ -37,14 +37,16 @@ pub fn render(settings: &Settings, out: &Path, measured: bool) -> Result<Report,
     // All but the last of the frames whose mean the picture is.
     let frames = director::frames(settings);
     let bar = progress_bar(if frames > 1 { frames.into() } else { 0 });
+    let mut planner = Planner::default();
     for frame in 0..frames - 1 {
-        let (pose, plan) = director::stage_frame(settings, &scene, context.capabilities(), frame)?;
+        let (pose, plan) = planner.stage_frame(settings, &scene, context.capabilities(), frame)?;
         readback::picture(&context, &mut renderer, &plan, &scene, &pose)?;
+        planner.take_back((pose, plan));
         bar.inc(1);
     }
     bar.finish_and_clear();
     timings.gather_ms = lap(&mut clock);
-    let (pose, plan) = director::stage_frame(settings, &scene, context.capabilities(), frames - 1)?;
+    let (pose, plan) = planner.stage_frame(settings, &scene, context.capabilities(), frames - 1)?;
     timings.plan_ms = lap(&mut clock);
     tracing::info!("planned {} steps, {} volumes in {:.1} ms", plan.steps.len(), plan.volumes.len(), timings.plan_ms);
 

@@ -10,19 +10,37 @@ impl Scene {
     /// Of each node, whether it glows.
     #[must_use]
     pub fn glowing_nodes(&self, edits: &BTreeMap<usize, bool>) -> Vec<bool> {
-        let mut glows: Vec<bool> = Vec::with_capacity(self.nodes.len());
+        let mut glows = Vec::with_capacity(self.nodes.len());
+        self.append_glowing_nodes(edits, &mut glows);
+        glows
+    }
+
+    fn append_glowing_nodes(&self, edits: &BTreeMap<usize, bool>, glows: &mut Vec<bool>) {
         for (index, node) in self.nodes.iter().enumerate() {
             let with_parent = node.parent.and_then(|parent| glows.get(parent)).copied();
             glows.push(edits.get(&index).copied().unwrap_or(node.halo || with_parent == Some(true)));
         }
-        glows
     }
 
     /// Of each instance, whether it glows.
     #[must_use]
     pub fn glowing(&self, edits: &BTreeMap<usize, bool>) -> Vec<bool> {
-        let nodes = self.glowing_nodes(edits);
-        self.instances().map(|(node, ..)| nodes[node]).collect()
+        let mut glows = Vec::new();
+        self.find_glowing(edits, &mut glows);
+        glows
+    }
+
+    /// The same, into `glows`, whose memory is used.
+    pub fn find_glowing(&self, edits: &BTreeMap<usize, bool>, glows: &mut Vec<bool>) {
+        glows.clear();
+        self.append_glowing_nodes(edits, glows);
+        let mut instances = 0;
+        for (node, ..) in self.instances() {
+            // No instance comes before its node.
+            glows[instances] = glows[node];
+            instances += 1;
+        }
+        glows.truncate(instances);
     }
 
     /// Gives a node a halo, or takes it away, with all that hangs on it.

@@ -158,7 +158,10 @@ impl Mesh {
             parts.split();
         }
         let normals = match parts.normals.take() {
-            Some(given) => unit_normals(&parts.positions, given, &parts.indices),
+            Some(mut given) => {
+                unit_normals(&parts.positions, &mut given, &parts.indices);
+                given
+            }
             None => {
                 let mut normals = Vec::new();
                 flat_normals(&parts.positions, &mut normals);
@@ -308,9 +311,9 @@ pub(super) fn flat_normals(positions: &[Vec3], normals: &mut Vec<Vec3>) {
 }
 
 /// Makes normals unit length; one of a triangle's own where there is no direction in them.
-pub(super) fn unit_normals(positions: &[Vec3], mut normals: Vec<Vec3>, indices: &[u32]) -> Vec<Vec3> {
+pub(super) fn unit_normals(positions: &[Vec3], normals: &mut [Vec3], indices: &[u32]) {
     let mut lost = false;
-    for normal in &mut normals {
+    for normal in &mut *normals {
         // In double precision, where tiny and huge ones have a length too.
         *normal = normal.as_dvec3().try_normalize().map_or(Vec3::ZERO, |unit| unit.as_vec3());
         lost |= *normal == Vec3::ZERO;
@@ -328,7 +331,6 @@ pub(super) fn unit_normals(positions: &[Vec3], mut normals: Vec<Vec3>, indices: 
         }
         normals.iter_mut().filter(|normal| **normal == Vec3::ZERO).for_each(|normal| *normal = Vec3::Y);
     }
-    normals
 }
 
 /// Orders two vertices by all that deforms them; equal ones stay together in every pose.

@@ -4,13 +4,12 @@
 //! and morph targets bend meshes, nodes place lights, and what the user changed of a light comes
 //! last. A scene shared between two times, or two users, is never written to.
 
+use glam::{Affine3A, DAffine3, DQuat, DVec3, DVec4, Vec3};
 use std::collections::BTreeMap;
-use std::sync::OnceLock;
 
-use glam::{DAffine3, DQuat, DVec3, DVec4, Vec3};
-
-use super::{AnimationChoice, Extent, LightKind, Mesh, OffMirror, Property, Scene, Slide, Transform, deform};
-use crate::geometry::{Aabb, Posed};
+use super::deform::Bent;
+use super::{AnimationChoice, Extent, LightKind, Mesh, OffMirror, Property, Scene, Slide, Transform};
+use crate::geometry::{Aabb, LazyPosed, Posed};
 use crate::settings::{LightEdit, SlideChoice};
 
 /// Everything about a scene that depends on time.
@@ -43,7 +42,7 @@ pub struct DeformedMesh {
     /// Of `positions`.
     pub bounds: Aabb,
     /// Of `positions`, once asked for ([`Pose::posed`]).
-    pub posed: OnceLock<Posed>,
+    pub posed: LazyPosed,
 }
 
 /// A light in world space: a point of one, where the light has a size and was expanded
@@ -102,58 +101,96 @@ impl Default for PosedLight {
 /// lights changed as `lights` says (by light index).
 #[must_use]
 pub fn pose(scene: &Scene, time: f64, animation: AnimationChoice, lights: &BTreeMap<usize, LightEdit>) -> Pose {
-    let (locals, weights) = animated(scene, time, animation);
-    let mut world_from_node: Vec<DAffine3> = Vec::with_capacity(scene.nodes.len());
-    for (node, local) in scene.nodes.iter().zip(&locals) {
-        let world_from_parent = node.parent.and_then(|parent| world_from_node.get(parent)).copied();
-        world_from_node.push(world_from_parent.unwrap_or(DAffine3::IDENTITY) * local.affine());
-    }
-
-    let mut world_from_object = world_from_node.clone();
-    let mut deformed = vec![None; scene.nodes.len()];
-    for (at, node, mesh) in scene.instances() {
-        let weights = [&weights[at], &node.morph_weights, &mesh.morph_weights].into_iter().find(|weights| !weights.is_empty());
-        let weights = weights.map_or(&[][..], Vec::as_slice);
-        let skin = node.skin.and_then(|skin| scene.skins.get(skin)).filter(|_| !mesh.skin.is_empty());
-        deformed[at] = if let Some(skin) = skin {
-            world_from_object[at] = DAffine3::IDENTITY;
-            Some(deform::skinned(mesh, weights, skin, &world_from_node))
-        } else if !is_invertible(&world_from_node[at]) {
-            world_from_object[at] = DAffine3::IDENTITY;
-            Some(deform::baked(mesh, weights, &world_from_node[at]))
-        } else if weights.iter().zip(&mesh.morphs).any(|(weight, _)| *weight != 0.0) {
-            Some(deform::morphed(mesh, weights))
-        } else {
-            None
-        };
-    }
-
-    let lights = (0..scene.lights.len()).map(|light| place_light(scene, light, &world_from_node, lights.get(&light))).collect();
-    Pose { time, world_from_node, deformed, world_from_object, lights }
+    Poser::default().pose(Pose::default(), scene, time, animation, lights)
 }
 
-/// Every node's own transform and morph weights; weights that nothing animates are empty.
-fn animated(scene: &Scene, time: f64, choice: AnimationChoice) -> (Vec<Transform>, Vec<Vec<f32>>) {
-    let mut locals: Vec<Transform> = scene.nodes.iter().map(|node| node.local).collect();
-    let mut weights = vec![Vec::new(); scene.nodes.len()];
-    let mut values = Vec::new();
-    let playing = scene.animations.iter().enumerate().filter(|(index, _)| choice.plays(*index));
-    for (animation, channel) in
-        playing.flat_map(|(_, animation)| animation.channels.iter().map(move |channel| (animation, channel)))
-    {
-        channel.sample(animation.local_time(time), &mut values);
-        if values.is_empty() || channel.node >= locals.len() {
-            continue;
+/// Poses scenes, in memory that is kept from one time to the next.
+#[derive(Debug, Default)]
+pub struct Poser {
+    /// Every node's own transform.
+    locals: Vec<Transform>,
+    /// And its morph weights; those that nothing animates are empty.
+    weights: Vec<Vec<f32>>,
+    values: Vec<f64>,
+    /// Of the skin that is bent just now.
+    joints: Vec<Affine3A>,
+}
+
+impl Poser {
+    /// [`pose`], in the memory of a pose that nobody needs any more.
+    #[must_use]
+    pub fn pose(
+        &mut self,
+        before: Pose,
+        scene: &Scene,
+        time: f64,
+        animation: AnimationChoice,
+        edits: &BTreeMap<usize, LightEdit>,
+    ) -> Pose {
+        self.animate(scene, time, animation);
+        let Pose { mut world_from_node, mut deformed, mut world_from_object, mut lights, .. } = before;
+        world_from_node.clear();
+        for (node, local) in scene.nodes.iter().zip(&self.locals) {
+            let world_from_parent = node.parent.and_then(|parent| world_from_node.get(parent)).copied();
+            world_from_node.push(world_from_parent.unwrap_or(DAffine3::IDENTITY) * local.affine());
         }
-        let Transform::Trs { translation, rotation, scale } = &mut locals[channel.node] else { continue };
-        match channel.property {
-            Property::Translation => *translation = DVec3::from_slice(&values),
-            Property::Rotation => *rotation = DQuat::from_slice(&values),
-            Property::Scale => *scale = DVec3::from_slice(&values),
-            Property::Weights => weights[channel.node] = values.iter().map(|value| *value as f32).collect(),
+
+        world_from_object.clone_from(&world_from_node);
+        deformed.resize_with(scene.nodes.len(), || None);
+        for (at, node) in scene.nodes.iter().enumerate() {
+            let slot = &mut deformed[at];
+            let Some(mesh) = node.mesh.map(|mesh| &scene.meshes[mesh]) else {
+                *slot = None;
+                continue;
+            };
+            let weights = [&self.weights[at], &node.morph_weights, &mesh.morph_weights];
+            let weights = weights.into_iter().find(|weights| !weights.is_empty()).map_or(&[][..], Vec::as_slice);
+            let skin = node.skin.and_then(|skin| scene.skins.get(skin)).filter(|_| !mesh.skin.is_empty());
+            let bent = |before: &mut Option<DeformedMesh>| Bent { mesh, weights, into: before.take().unwrap_or_default() };
+            *slot = if let Some(skin) = skin {
+                world_from_object[at] = DAffine3::IDENTITY;
+                Some(bent(slot).skinned(skin, &world_from_node, &mut self.joints))
+            } else if !is_invertible(&world_from_node[at]) {
+                world_from_object[at] = DAffine3::IDENTITY;
+                Some(bent(slot).baked(&world_from_node[at]))
+            } else if weights.iter().zip(&mesh.morphs).any(|(weight, _)| *weight != 0.0) {
+                Some(bent(slot).morphed())
+            } else {
+                None
+            };
+        }
+
+        lights.clear();
+        lights.extend((0..scene.lights.len()).map(|light| place_light(scene, light, &world_from_node, edits.get(&light))));
+        Pose { time, world_from_node, deformed, world_from_object, lights }
+    }
+
+    fn animate(&mut self, scene: &Scene, time: f64, choice: AnimationChoice) {
+        let Self { locals, weights, values, .. } = self;
+        locals.clear();
+        locals.extend(scene.nodes.iter().map(|node| node.local));
+        weights.iter_mut().for_each(Vec::clear);
+        weights.resize_with(scene.nodes.len(), Vec::new);
+        let playing = scene.animations.iter().enumerate().filter(|(index, _)| choice.plays(*index));
+        for (animation, channel) in
+            playing.flat_map(|(_, animation)| animation.channels.iter().map(move |channel| (animation, channel)))
+        {
+            channel.sample(animation.local_time(time), values);
+            if values.is_empty() || channel.node >= locals.len() {
+                continue;
+            }
+            let Transform::Trs { translation, rotation, scale } = &mut locals[channel.node] else { continue };
+            match channel.property {
+                Property::Translation => *translation = DVec3::from_slice(values),
+                Property::Rotation => *rotation = DQuat::from_slice(values),
+                Property::Scale => *scale = DVec3::from_slice(values),
+                Property::Weights => {
+                    weights[channel.node].clear();
+                    weights[channel.node].extend(values.iter().map(|value| *value as f32));
+                }
+            }
         }
     }
-    (locals, weights)
 }
 
 /// Has an inverse that can be worked with: lights can be brought into the object's space.
@@ -220,7 +257,7 @@ impl Pose {
     #[must_use]
     pub fn posed<'a>(&'a self, mesh: &'a Mesh, node: usize) -> &'a Posed {
         match self.deformed.get(node) {
-            Some(Some(deformed)) => deformed.posed.get_or_init(|| Posed::new(&mesh.topology, &deformed.positions)),
+            Some(Some(deformed)) => deformed.posed.get(&mesh.topology, &deformed.positions),
             _ => &mesh.rest,
         }
     }

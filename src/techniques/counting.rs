@@ -10,12 +10,13 @@ use glam::{DAffine3, DVec3, DVec4};
 
 use super::culling::{Sight, around};
 use super::overflow::{self, Way};
+use super::workspace::Workspace;
 use super::{Row, depth_bounds, wide};
 use crate::frame::plan::View;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{
-    Capabilities, Cutout, Draw, DrawSet, Method, Part, Piece, Program, Reason, Step, Target, VolumePart, VolumePlan,
+    Capabilities, Cutout, Draw, DrawSet, List, Method, Part, Piece, Program, Reason, Step, Target, VolumePart, VolumePlan,
 };
 use crate::geometry::eye_count::{EyeCount, holding_count, inside_solid};
 use crate::geometry::frustum::NearPyramid;
@@ -178,6 +179,8 @@ pub struct Ask<'a> {
     pub overflow: Overflow,
     /// The count itself is shown, not only whether it is zero.
     pub values: bool,
+    /// Where lists are made.
+    pub workspace: &'a Workspace,
 }
 
 /// The volumes of one light, decided.
@@ -203,14 +206,15 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
     if row.groups.is_empty() {
         return nothing();
     }
-    // Of those that are counted: the caster, and its volume's number.
-    let mut counted = Vec::with_capacity(casters.len());
+    // Of those that are counted: the caster's number, and its volume's.
+    let [mut counted, mut numbers] = [(); 2].map(|()| ask.workspace.numbers.lend());
     volumes.reserve(casters.len());
-    for caster in casters {
+    for (number, caster) in casters.iter().enumerate() {
         let decided = caster.sight.dropped.map(|reason| (Method::Dropped, reason)).or_else(|| (row.decide)(caster));
         let Some((method, reason)) = decided else { continue };
         if method != Method::Dropped {
-            counted.push((caster, volumes.len()));
+            counted.push(number);
+            numbers.push(volumes.len());
         }
         volumes.push(planned(row, caster, light, (method, reason)));
     }
@@ -218,21 +222,21 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
         return nothing();
     }
 
-    let decision = overflow::decide(row, &counted.iter().map(|(caster, _)| *caster).collect::<Vec<_>>(), ask);
+    let decision = overflow::decide(row, (casters, &counted), ask);
     let notes = decision.note.into_iter().collect();
     let (batch_of, batches) = match decision.way {
         Way::Wide if row.technique != Technique::Wide => {
             volumes.truncate(first);
             return LightCount { notes, ..count_light(&wide::ROW, casters, ask, volumes) };
         }
-        Way::Plain | Way::Wide => (vec![0; counted.len()], 1),
-        Way::Batches(batch_of, batches) => (batch_of, batches),
+        Way::Plain | Way::Wide => (None, 1),
+        Way::Batches(batch_of, batches) => (Some(batch_of), batches),
     };
     let budget = if batches > 1 { ask.budget.batched() } else { ask.budget };
     let mut count = LightCount { base: 0, steps: Vec::new(), budget, notes };
     for batch in 0..batches {
-        let members: Vec<usize> =
-            counted.iter().zip(&batch_of).filter(|(_, of)| **of == batch).map(|((_, volume), _)| *volume).collect();
+        let is_in_it = |place: &usize| batch_of.as_ref().is_none_or(|batch_of| batch_of[*place] == batch);
+        let members = ask.workspace.numbers.collect((0..numbers.len()).filter(is_in_it).map(|place| numbers[place]));
         let base = members.iter().map(|&volume| volumes[volume].holds_eye).fold(0u8, |sum, holds_eye| {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the count is modulo the field")]
             sum.wrapping_add(holds_eye as u8)
@@ -293,22 +297,22 @@ pub(super) fn steps(row: &Row, members: &[usize], volumes: &[VolumePlan], budget
     let mut steps = Vec::new();
     for group in row.groups.iter().copied().flatten() {
         for winding in [Winding::Ccw, Winding::Cw] {
-            let parts: Vec<_> = members
+            let counted = members
                 .iter()
                 .map(|&index| (index, &volumes[index]))
-                .filter(|(_, volume)| volume.method == group.method && volume.winding == winding)
+                .filter(|(_, volume)| volume.method == group.method && volume.winding == winding);
+            let parts = counted
                 .flat_map(|(index, volume)| group.parts.iter().map(move |&part| (volume, VolumePart { volume: index, part })))
                 .filter(|(volume, part)| volume.turns || part.part != Part::LightCapTurned)
-                .filter(|(volume, part)| volume.shows(part.part))
-                .map(|(_, part)| part)
-                .collect();
+                .filter(|(volume, part)| volume.shows(part.part));
+            let parts = ask.workspace.found_parts.collect(parts.map(|(_, part)| part));
             let shares = |a: &VolumePart, b: &VolumePart| !ask.apart || a.volume == b.volume;
             for parts in parts.chunk_by(shares) {
                 // What is wrong somewhere is left to be wrong everywhere.
                 let of_volume =
                     |part: &VolumePart| if row.exact { volumes[part.volume].scissor(ask.scissor) } else { ask.scissor };
                 let rect = parts.iter().map(of_volume).reduce(around).unwrap_or(ask.scissor);
-                steps.push(group.step(ask.light, winding, rect, budget, parts.to_vec()));
+                steps.push(group.step(ask.light, winding, rect, budget, ask.workspace.parts.collect(parts.iter().copied())));
             }
         }
     }
@@ -407,7 +411,7 @@ impl Group {
         constant: [0.0; 4],
     };
 
-    fn step(&self, light: usize, winding: Winding, scissor: [u32; 4], budget: BitBudget, parts: Vec<VolumePart>) -> Step {
+    fn step(&self, light: usize, winding: Winding, scissor: [u32; 4], budget: BitBudget, parts: List<VolumePart>) -> Step {
         let mirrored = if winding == Winding::Cw { ", mirrored" } else { "" };
         let faces = match (self.program, self.cull) {
             (Program::VolumeFronts, _) | (_, Cull::Back) => ", fronts",

@@ -34,38 +34,40 @@ use crate::geometry::frustum::{cube, hull_rect, screen_rect};
 use crate::geometry::{Aabb, Body, VolumeParts};
 use crate::scene::{AlphaMode, LightKind, Pose, PosedLight, Scene};
 use crate::settings::{LightBounds, Show};
+use crate::techniques::workspace::{Lent, Workspace};
 
 /// Where things are in one view, asked once a frame.
 #[derive(Debug)]
-pub struct Stalls {
+pub struct Stalls<'w> {
     /// Each instance's box.
-    pub boxes: Vec<Body>,
+    pub boxes: Lent<'w, Body>,
     /// Whether any of an instance's opaque surfaces may be in view.
-    seen: Vec<bool>,
+    seen: Lent<'w, bool>,
     /// Instances, the largest first: they are the likeliest to receive a shadow.
-    by_size: Vec<usize>,
+    by_size: Lent<'w, usize>,
     /// All that is seen, for views by way of a mirror: what lies in its window, for ever.
     window: Option<Body>,
 }
 
-impl Stalls {
+impl<'w> Stalls<'w> {
     /// The boxes of `scene` as posed, and which of them `view` may see, by way of a mirror through its `window`.
     #[must_use]
-    pub fn new(scene: &Scene, pose: &Pose, view: &View, window: Option<Body>) -> Self {
+    pub fn new((scene, pose): (&Scene, &Pose), view: &View, window: Option<Body>, workspace: &'w Workspace) -> Self {
         let frustum = Body::frustum(view.camera.eye, view.camera.near_rectangle());
-        let count = scene.instances().count();
-        let (mut sizes, mut boxes, mut seen) = (Vec::with_capacity(count), Vec::with_capacity(count), Vec::with_capacity(count));
+        let Workspace { sizes, boxes, flags, numbers, .. } = workspace;
+        let (mut sizes, mut boxes, mut seen) = (sizes.lend(), boxes.lend(), flags.lend());
         for (node, _, mesh) in scene.instances() {
             let bounds = pose.bounds(scene, node);
             let body = Body::boxed(&bounds, &pose.world_from_object[node]);
             let receives = mesh.primitives.iter().any(|part| scene.materials[part.material].alpha != AlphaMode::Blend);
             let in_window = window.as_ref().is_none_or(|window| window.may_meet(&body));
             seen.push(receives && frustum.may_meet(&body) && in_window);
-            sizes.push(bounds.transformed(&pose.world_from_object[node]).radius());
+            sizes.push(Some(bounds.transformed(&pose.world_from_object[node]).radius()));
             boxes.push(body);
         }
-        let mut by_size: Vec<_> = (0..boxes.len()).collect();
-        by_size.sort_by(|a, b| sizes[*b].total_cmp(&sizes[*a]));
+        let mut by_size = numbers.collect(0..boxes.len());
+        let size = |instance: usize| sizes[instance].unwrap_or(0.0);
+        by_size.sort_unstable_by(|a, b| size(*b).total_cmp(&size(*a)).then(a.cmp(b)));
         Self { boxes, seen, by_size, window }
     }
 
@@ -151,7 +153,7 @@ pub fn around([ax, ay, aw, ah]: [u32; 4], [bx, by, bw, bh]: [u32; 4]) -> [u32; 4
 #[derive(Debug)]
 pub struct Audience<'a> {
     light: &'a PosedLight,
-    stalls: &'a Stalls,
+    stalls: &'a Stalls<'a>,
     interest: Interest,
     culling: bool,
     scissor: [u32; 4],
@@ -165,7 +167,7 @@ pub struct Audience<'a> {
     occlusion: Body,
     cone: Option<Body>,
     /// Instances that are in view and that the light reaches, the largest first.
-    receivers: Vec<usize>,
+    receivers: Lent<'a, usize>,
 }
 
 /// One caster's volume before its audience.
@@ -187,7 +189,7 @@ impl<'a> Audience<'a> {
     #[must_use]
     pub fn new(
         light: &'a PosedLight,
-        stalls: &'a Stalls,
+        (stalls, workspace): (&'a Stalls<'a>, &'a Workspace),
         view: &View,
         interest: Interest,
         culling: bool,
@@ -212,7 +214,7 @@ impl<'a> Audience<'a> {
                 && ball.as_ref().is_none_or(|ball| ball.may_meet(body))
                 && cone.as_ref().is_none_or(|cone| cone.may_meet(body))
         };
-        let receivers = stalls.by_size.iter().copied().filter(reached).collect();
+        let receivers = workspace.numbers.collect(stalls.by_size.iter().copied().filter(reached));
         Self {
             light,
             stalls,

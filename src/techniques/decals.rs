@@ -31,7 +31,7 @@ use super::surfaces::{Known, SurfaceGroup, described, step};
 use crate::frame::plan::View;
 use crate::frame::state::{Blend, Depth, DepthBias, State};
 use crate::frame::stencil::{BitBudget, StencilState};
-use crate::frame::{Draw, DrawSet, Program, Step, Surface};
+use crate::frame::{Draw, DrawSet, List, Program, Step, Surface};
 use crate::geometry::planar::height;
 use crate::scene::{AlphaMode, Pose, Scene};
 use crate::settings::DecalMode;
@@ -212,7 +212,7 @@ impl Decals {
         for (kind, alpha, surface) in described(known, view) {
             let Some(Decal { layer, ground: Some(ground), .. }) = kind.decal else { continue };
             if alpha == AlphaMode::Blend {
-                layers.entry((layer, ground)).or_default().push(SurfaceGroup { kind, surfaces: vec![surface] });
+                layers.entry((layer, ground)).or_default().push(SurfaceGroup { kind, surfaces: vec![surface].into() });
             }
         }
         let mut steps = Vec::new();
@@ -245,7 +245,7 @@ impl Decals {
         let ground = &self.grounds[number];
         let marked = groups.iter().filter_map(|group| {
             let lies = |surface: &Surface| ground.surfaces.contains(surface) || laid && group.claims() == Some(number);
-            let surfaces: Vec<_> = group.surfaces.iter().copied().filter(lies).collect();
+            let surfaces: List<_> = group.surfaces.iter().copied().filter(lies).collect();
             if surfaces.is_empty() {
                 return None;
             }

@@ -38,12 +38,13 @@ pub fn refusal(scene: &Scene, groups: &[SurfaceGroup]) -> Option<&'static str> {
     }
 }
 
-/// Triangles of these surfaces.
+/// Triangles of these surfaces; `nodes` are the instances'.
 #[must_use]
-pub fn triangles(scene: &Scene, groups: &[SurfaceGroup]) -> usize {
-    let meshes: Vec<_> = scene.instances().map(|(.., mesh)| mesh).collect();
-    let surfaces = groups.iter().flat_map(|group| &group.surfaces);
-    surfaces.map(|surface| meshes[surface.instance].primitives[surface.primitive].index_count as usize / 3).sum()
+pub fn triangles(scene: &Scene, nodes: &[usize], groups: &[SurfaceGroup]) -> usize {
+    let mesh = |instance: usize| scene.nodes[nodes[instance]].mesh.map(|mesh| &scene.meshes[mesh]);
+    let triangles =
+        |surface: &crate::frame::Surface| Some(mesh(surface.instance)?.primitives[surface.primitive].index_count as usize / 3);
+    groups.iter().flat_map(|group| &group.surfaces).filter_map(triangles).sum()
 }
 
 /// Keeps each pixel's surface; lays depth.

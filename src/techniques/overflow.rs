@@ -14,6 +14,7 @@
 //! [`StencilState::collapse`]: crate::frame::stencil::StencilState::collapse
 
 use super::counting::Ask;
+use super::workspace::Lent;
 use super::{Caster, Row};
 use crate::geometry::kept::Pair;
 use crate::geometry::overlap::{Cone, Heap, OverlapScratch};
@@ -24,28 +25,37 @@ use crate::settings::{Overflow, Technique};
 pub const TOO_MANY: &str = "volumes over one pixel";
 
 /// How a light's volumes are counted, so that the count fits.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Way {
+#[derive(Debug)]
+pub(super) enum Way<'w> {
     /// All at once.
     Plain,
     /// One after the other: of each caster, in which batch; and how many there are.
-    Batches(Vec<usize>, usize),
+    Batches(Lent<'w, usize>, usize),
     /// In a float target.
     Wide,
 }
 
 /// The way, and what a user should know of it.
 #[derive(Debug)]
-pub(super) struct Decision {
-    pub way: Way,
+pub(super) struct Decision<'w> {
+    pub way: Way<'w>,
     pub note: Option<String>,
+}
+
+/// Memory that is kept from light to light.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    overlap: OverlapScratch,
+    bounds: Vec<u32>,
+    cones: Vec<Cone>,
+    heaps: Vec<Heap>,
 }
 
 /// More casters than this are not looked at pair by pair.
 const MANY: usize = 4096;
 
-/// Decides for the `casters` of one light that are counted at all.
-pub(super) fn decide(row: &Row, casters: &[&Caster<'_>], ask: &Ask) -> Decision {
+/// Decides for those of a light's casters that are counted at all, by their numbers.
+pub(super) fn decide<'w>(row: &Row, (casters, counted): (&[Caster<'_>], &[usize]), ask: &Ask<'w>) -> Decision<'w> {
     let largest = ask.budget.largest();
     if row.technique == Technique::Wide {
         return Decision { way: Way::Wide, note: None };
@@ -54,44 +64,41 @@ pub(super) fn decide(row: &Row, casters: &[&Caster<'_>], ask: &Ask) -> Decision 
         // It does not count.
         return Decision { way: Way::Plain, note: None };
     }
-    let mut bounds: Vec<u32> = casters.iter().map(|caster| trivial_bound(caster)).collect();
+    let casters = || counted.iter().map(|&number| &casters[number]);
+    let Scratch { overlap, bounds, cones, heaps } = &mut *ask.workspace.overflow.borrow_mut();
+    bounds.clear();
+    bounds.extend(casters().map(trivial_bound));
     let sum = |bounds: &[u32]| bounds.iter().map(|bound| u64::from(*bound)).sum::<u64>();
     let plain = Decision { way: Way::Plain, note: None };
-    if sum(&bounds) <= largest.into() {
+    if sum(bounds) <= largest.into() {
         return plain;
     }
-    let mut scratch = OverlapScratch::default();
-    for (bound, caster) in bounds.iter_mut().zip(casters) {
+    overlap.begin();
+    for (bound, caster) in bounds.iter_mut().zip(casters()) {
         if *bound > 1 {
-            *bound = winding_bound(&mut scratch, caster, ask.light, largest);
+            *bound = winding_bound(overlap, caster, ask.light, largest);
         }
     }
-    if sum(&bounds) <= largest.into() {
+    if sum(bounds) <= largest.into() {
         return plain;
     }
-    let cones: Vec<Cone> = casters.iter().map(|caster| cone(caster, casters.len() > MANY)).collect();
-    let together = |bounds: &[u32]| {
-        let mut all = Heap::default();
-        for (cone, bound) in cones.iter().zip(bounds) {
-            all.try_add(*cone, *bound, u64::MAX);
-        }
-        all.most()
-    };
-    let mut most = together(&bounds);
+    cones.clear();
+    cones.extend(casters().map(|caster| cone(caster, counted.len() > MANY)));
+    let mut most = together(heaps, cones, bounds);
     if most > largest.into() {
         // Worth more time.
-        for (bound, caster) in bounds.iter_mut().zip(casters) {
+        for (bound, caster) in bounds.iter_mut().zip(casters()) {
             if *bound > 1 {
-                *bound = winding_bound(&mut scratch, caster, ask.light, 1);
+                *bound = winding_bound(overlap, caster, ask.light, 1);
             }
         }
-        most = together(&bounds);
+        most = together(heaps, cones, bounds);
     }
     if most <= largest.into() {
         return plain;
     }
 
-    let number = casters.first().map_or(ask.light, |caster| caster.light.of);
+    let number = casters().next().map_or(ask.light, |caster| caster.light.of);
     let bits = ask.budget.count_mask.count_ones();
     let too_many = format!("light {number}: up to {most} {TOO_MANY}, the count of {bits} bits tells {largest}");
     if ask.overflow == Overflow::Naive || !row.counts_exactly() {
@@ -103,7 +110,8 @@ pub(super) fn decide(row: &Row, casters: &[&Caster<'_>], ask: &Ask) -> Decision 
     let alone = bounds.iter().max().copied().unwrap_or(0);
     let by_wide = ask.samples == 1 || ask.capabilities.wide_four_samples;
     if alone <= batch && !(ask.values && by_wide) {
-        let (batch_of, batches) = in_batches(&cones, &bounds, batch.into());
+        let mut batch_of = ask.workspace.numbers.lend();
+        let batches = in_batches(heaps, (cones, bounds), batch.into(), &mut batch_of);
         let note = format!("{too_many}: counted in {batches} batches of at most {batch}, each collapsed into one bit");
         return Decision { way: Way::Batches(batch_of, batches), note: Some(note) };
     }
@@ -116,23 +124,36 @@ pub(super) fn decide(row: &Row, casters: &[&Caster<'_>], ask: &Ask) -> Decision 
     Decision { way: Way::Plain, note: Some(note) }
 }
 
-/// Casters into as few batches as come by first fit.
-fn in_batches(cones: &[Cone], bounds: &[u32], largest: u64) -> (Vec<usize>, usize) {
-    let mut batches: Vec<Heap> = Vec::new();
-    let batch_of = cones
-        .iter()
-        .zip(bounds)
-        .map(|(cone, bound)| {
-            let found = batches.iter_mut().position(|batch| batch.try_add(*cone, *bound, largest));
-            found.unwrap_or_else(|| {
-                let mut batch = Heap::default();
-                batch.try_add(*cone, *bound, largest);
-                batches.push(batch);
-                batches.len() - 1
-            })
-        })
-        .collect();
-    (batch_of, batches.len())
+/// The most that all of them can add up to over one point; in the first of `heaps`.
+fn together(heaps: &mut Vec<Heap>, cones: &[Cone], bounds: &[u32]) -> u64 {
+    let all = empty(heaps, 0);
+    for (cone, bound) in cones.iter().zip(bounds) {
+        all.try_add(*cone, *bound, u64::MAX);
+    }
+    all.most()
+}
+
+/// Casters into as few batches as come by first fit: of each the batch into `batch_of`; gives how many there are.
+fn in_batches(heaps: &mut Vec<Heap>, (cones, bounds): (&[Cone], &[u32]), largest: u64, batch_of: &mut Vec<usize>) -> usize {
+    let mut batches = 0;
+    for (cone, bound) in cones.iter().zip(bounds) {
+        let found = heaps[..batches].iter_mut().position(|batch| batch.try_add(*cone, *bound, largest));
+        batch_of.push(found.unwrap_or_else(|| {
+            empty(heaps, batches).try_add(*cone, *bound, largest);
+            batches += 1;
+            batches - 1
+        }));
+    }
+    batches
+}
+
+/// One of the heaps, or another one, with nothing in it.
+fn empty(heaps: &mut Vec<Heap>, number: usize) -> &mut Heap {
+    if heaps.len() <= number {
+        heaps.resize_with(number + 1, Heap::default);
+    }
+    heaps[number].clear();
+    &mut heaps[number]
 }
 
 /// Known without looking at the light: one for a convex solid, else as many as there are triangles.

@@ -25,9 +25,10 @@
 //! [`StencilState::light_once`]: crate::frame::stencil::StencilState::light_once
 
 use super::Row;
-use super::counting::{Ask, Caster, LightCount, count_light, full_screen};
+use super::counting::{Ask, LightCount, count_light, full_screen};
 use super::culling::around;
 use super::overflow::{self, Way};
+use super::workspace::Casters;
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{Program, Step, VolumePlan};
 use crate::settings::{Overflow, Technique};
@@ -39,7 +40,7 @@ pub struct Point<'a> {
     /// The pixels it can reach.
     pub rect: [u32; 4],
     /// All that might cast a shadow.
-    pub casters: Vec<Caster<'a>>,
+    pub casters: Casters<'a>,
 }
 
 /// Lights whose shadows are in the stencil together: one, or points of one with a bit each.
@@ -125,8 +126,10 @@ fn choose(row: &Row, points: &[Point<'_>], ask: &Ask<'_>) -> (Layout, String) {
     let told = |how: &str| format!("light {light}: {number} points, each with a bit of its own: {how}");
     let ways = |layout: Layout| -> Vec<_> {
         let way = |point: &Point<'_>| {
-            let counted: Vec<_> = point.casters.iter().filter(|caster| caster.sight.dropped.is_none()).collect();
-            overflow::decide(row, &counted, &Ask { budget: layout.budget(0), light: point.light, ..*ask })
+            let casters = &point.casters;
+            let is_counted = |number: &usize| casters[*number].sight.dropped.is_none();
+            let counted = ask.workspace.numbers.collect((0..casters.len()).filter(is_counted));
+            overflow::decide(row, (casters, &counted), &Ask { budget: layout.budget(0), light: point.light, ..*ask })
         };
         points.iter().map(way).collect()
     };
@@ -135,15 +138,15 @@ fn choose(row: &Row, points: &[Point<'_>], ask: &Ask<'_>) -> (Layout, String) {
     if row.technique == Technique::Wide {
         return (own, told("counted wide, and the verdict written into it"));
     }
-    if by_own.iter().all(|decision| decision.way == Way::Plain && decision.note.is_none()) {
+    if by_own.iter().all(|decision| matches!(decision.way, Way::Plain) && decision.note.is_none()) {
         return (own, told("turned over by every face, for no two volumes lie over one pixel"));
     }
     let by_split = ways(split);
-    if protected && by_split.iter().all(|decision| decision.way == Way::Wide) {
+    if protected && by_split.iter().all(|decision| matches!(decision.way, Way::Wide)) {
         return (own, told("counted wide, and the verdict written into it, for one caster alone could pass the count"));
     }
     let low = split.count_bits;
-    let wide = by_split.iter().filter(|decision| decision.way == Way::Wide).count();
+    let wide = by_split.iter().filter(|decision| matches!(decision.way, Way::Wide)).count();
     let batched = by_split.iter().filter(|decision| matches!(decision.way, Way::Batches(..))).count();
     let mut how = format!("{} at a time, counted in {low} bits and collapsed into it", split.points());
     if batched > 0 {

@@ -159,7 +159,7 @@ impl Receivers {
     #[must_use]
     pub fn apart(&self, groups: &[&SurfaceGroup], decals: &Decals) -> (Vec<Stand>, Vec<SurfaceGroup>) {
         let (mut stands, mut others): (Vec<Stand>, Vec<SurfaceGroup>) = (Vec::new(), Vec::new());
-        let single = |group: &SurfaceGroup, surface| SurfaceGroup { kind: group.kind, surfaces: vec![surface] };
+        let single = |group: &SurfaceGroup, surface| SurfaceGroup { kind: group.kind, surfaces: vec![surface].into() };
         let grounds: Vec<_> = groups.iter().filter_map(|group| group.claims()).collect();
         let shared = |a, b| grounds.iter().any(|&ground| decals.lies_in(ground, a) && decals.lies_in(ground, b));
         for group in groups.iter().filter(|group| group.claims().is_none()) {
@@ -177,7 +177,7 @@ impl Receivers {
                 }
             }
             if !rest.is_empty() {
-                others.push(SurfaceGroup { kind: group.kind, surfaces: rest });
+                others.push(SurfaceGroup { kind: group.kind, surfaces: rest.into() });
             }
         }
         // What claims its pixels stands before what it lies on.
@@ -355,7 +355,7 @@ pub fn shadow(stand: &Stand, light: usize, parts: Vec<VolumePart>, leaves: Leave
         stencil_reference: reference,
         light: Some(light),
         constant,
-        ..Draw::plain(Program::Projected, DrawSet::Volumes(parts), scissor)
+        ..Draw::plain(Program::Projected, DrawSet::Volumes(parts.into()), scissor)
     };
     Step::drawing(format!("light {light}: shadows onto {}", stand.name), why, draw)
 }

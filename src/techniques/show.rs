@@ -3,14 +3,14 @@
 use crate::frame::plan::VolumePlan;
 use crate::frame::state::{Blend, Depth, State, Winding};
 use crate::frame::stencil::{BitBudget, StencilState};
-use crate::frame::{Action, Draw, DrawSet, Gather, Method, Part, Program, Step, Target, VolumePart};
+use crate::frame::{Action, Draw, DrawSet, Gather, List, Method, Part, Program, Step, Target, VolumePart};
 
 /// One light's volumes as coloured glass over the picture (M image 2): those of the eye's own view.
 #[must_use]
 pub fn volumes(plans: &[VolumePlan], light: usize, scissor: [u32; 4]) -> Vec<Step> {
     let mut steps = Vec::new();
     for winding in [Winding::Ccw, Winding::Cw] {
-        let parts: Vec<_> = plans
+        let parts: List<_> = plans
             .iter()
             .enumerate()
             .filter(|(_, plan)| {

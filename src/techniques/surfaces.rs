@@ -4,14 +4,15 @@
 
 mod groups;
 
-pub(super) use groups::described;
+pub(super) use groups::{Kind, described};
 pub use groups::{Known, MATT, Place, SurfaceGroup, opaque_groups, solid_group};
 
 use crate::frame::plan::View;
 use crate::frame::state::{Blend, Cull, Depth, NearPlane, State};
 use crate::frame::stencil::{BitBudget, StencilState};
-use crate::frame::{Action, Draw, DrawSet, LightShape, Look, Program, Step, Surface, Target};
+use crate::frame::{Action, Draw, DrawSet, LightShape, List, Look, Program, Step, Surface, Target};
 use crate::scene::AlphaMode;
+use crate::techniques::workspace::Reached;
 
 pub(super) fn step(label: String, why: &str, draw: Draw) -> Step {
     Step { label, why: why.into(), view: 0, action: Action::Draw(Box::new(draw)) }
@@ -72,7 +73,7 @@ pub struct OnlyLight<'a> {
     /// Its shape.
     pub shape: LightShape,
     /// Which instances it may reach.
-    pub reached: &'a [bool],
+    pub reached: &'a Reached<'a>,
     /// What may be in shadow; `None` where no surface is.
     pub dark: Option<Dark>,
 }
@@ -95,7 +96,7 @@ pub fn finished(groups: &[SurfaceGroup], only: Option<&OnlyLight<'_>>, scissor: 
     for group in groups {
         let depth = if group.lays_depth_when_finished(dark.is_some()) { Depth::LAY } else { Depth::SAME_SURFACE };
         let depth = depth.with_bias(group.bias());
-        let mut draw = |words: &str, why: &str, surfaces: &[Surface], lit: Option<&OnlyLight<'_>>, stencil, scissor| {
+        let mut draw = |words: &str, why: &str, surfaces: &List<Surface>, lit: Option<&OnlyLight<'_>>, stencil, scissor| {
             if surfaces.is_empty() {
                 return;
             }
@@ -109,12 +110,14 @@ pub fn finished(groups: &[SurfaceGroup], only: Option<&OnlyLight<'_>>, scissor: 
                 scissor,
                 light: lit.map(|lit| lit.light),
                 constant: [0.0; 4],
-                set: DrawSet::Surfaces(surfaces.to_vec()),
+                set: DrawSet::Surfaces(surfaces.clone()),
             };
             steps.push(step(format!("{words}{}", group.words()), why, draw));
         };
-        let (near, far): (Vec<_>, Vec<_>) =
-            group.surfaces.iter().copied().partition(|surface| only.is_some_and(|only| only.reached[surface.instance]));
+        let [near, far] = match only {
+            Some(only) => [true, false].map(|near| only.reached.of(&group.surfaces, near)),
+            None => [List::default(), group.surfaces.clone()],
+        };
         if let Some(only) = only {
             let label = |words: &str| format!("light {}: {words}", only.light);
             let lit = dark.map_or(StencilState::IGNORE, |dark| StencilState::count_equals(dark.budget));
@@ -137,7 +140,7 @@ pub fn finished(groups: &[SurfaceGroup], only: Option<&OnlyLight<'_>>, scissor: 
 pub fn relit(groups: &[SurfaceGroup], only: &OnlyLight<'_>, scissor: [u32; 4]) -> Vec<Step> {
     let why = "Ambient light and this one, through the tone curve, where no volume holds the surface.";
     let of_group = |group: &SurfaceGroup| {
-        let surfaces: Vec<_> = group.surfaces.iter().copied().filter(|surface| only.reached[surface.instance]).collect();
+        let surfaces = only.reached.of(&group.surfaces, true);
         let draw = Draw {
             program: Program::Lit,
             look: Look { light: only.shape, finished: true, clipped: false, ..group.kind.look },
@@ -198,7 +201,7 @@ pub fn tinted(groups: &[SurfaceGroup], tint: &Tint<'_>, wanted: impl Fn(Surface)
     let of_group = |group: &SurfaceGroup| {
         let has_inside = group.kind.cull != Cull::None && !group.kind.laid;
         let drawn = group.surfaces.iter().copied().filter(|surface| wanted(*surface) && (has_inside || !tint.inside));
-        let surfaces: Vec<_> = drawn.collect();
+        let surfaces: List<_> = drawn.collect();
         (!surfaces.is_empty()).then(|| step(format!("{}{}", tint.label, group.words()), tint.why, draw(group, surfaces)))
     };
     groups.iter().filter_map(of_group).collect()
@@ -225,7 +228,7 @@ pub fn lit<'a>(
     shape: LightShape,
     scissor: [u32; 4],
     stencil: StencilState,
-    reached: &[bool],
+    reached: &Reached<'_>,
 ) -> Vec<Step> {
     let draw = |group: &SurfaceGroup, surfaces| Draw {
         program: Program::Lit,
@@ -240,7 +243,7 @@ pub fn lit<'a>(
     };
     let why = "Adds the light where no volume holds the surface, where the count is zero; and marks it there, lest another surface in the same place takes the light again.";
     let of_group = |group: &SurfaceGroup| {
-        let surfaces: Vec<_> = group.surfaces.iter().copied().filter(|surface| reached[surface.instance]).collect();
+        let surfaces = reached.of(&group.surfaces, true);
         (!surfaces.is_empty()).then(|| step(format!("light {light}: add{}", group.words()), why, draw(group, surfaces)))
     };
     groups.into_iter().filter_map(of_group).collect()
@@ -314,8 +317,8 @@ pub fn said<'a>(
 /// Blended surfaces, far to near, in every light, unshadowed.
 #[must_use]
 pub fn transparent(known: Known<'_>, view: &View, scissor: [u32; 4]) -> Vec<Step> {
-    let Known { scene, pose, .. } = known;
-    let nodes: Vec<_> = scene.instances().map(|(node, ..)| node).collect();
+    let Known { scene, pose, workspace, .. } = known;
+    let nodes = workspace.numbers.collect(scene.instances().map(|(node, ..)| node));
     let mut blended: Vec<_> = described(known, view)
         .filter(|(kind, alpha, _)| *alpha == AlphaMode::Blend && kind.decal.is_none_or(|decal| decal.ground().is_none()))
         .map(|(kind, _, surface)| {
@@ -325,16 +328,14 @@ pub fn transparent(known: Known<'_>, view: &View, scissor: [u32; 4]) -> Vec<Step
         .collect();
     blended.sort_by(|a, b| b.0.total_cmp(&a.0));
 
-    let mut groups: Vec<SurfaceGroup> = Vec::new();
-    for (_, kind, surface) in blended {
-        match groups.last_mut().filter(|group| group.kind == kind) {
-            Some(group) => group.surfaces.push(surface),
-            None => groups.push(SurfaceGroup { kind, surfaces: vec![surface] }),
-        }
-    }
+    let groups = blended.chunk_by(|(_, a, _), (_, b, _)| a == b);
+    let of_one_kind = |alike: &[(f64, Kind, Surface)]| {
+        let surfaces = workspace.surfaces.collect(alike.iter().map(|(.., surface)| *surface));
+        SurfaceGroup { kind: alike[0].1, surfaces }
+    };
     let why = "Blended surfaces, far to near, over the finished picture; they receive no shadows and cast none.";
     groups
-        .into_iter()
+        .map(of_one_kind)
         .map(|group| {
             let state = State {
                 depth: Depth::NEARER.with_bias(group.bias()),

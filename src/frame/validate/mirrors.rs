@@ -74,7 +74,7 @@ fn check_passage(plan: &FramePlan, view: usize, draw: &Draw, state: &mut Progres
     let DrawSet::Surfaces(surfaces) = &draw.set else { return Err("only a mirror's own surface tags its pixels") };
     let through = |child: &usize| {
         let window = plan.views[*child].through.as_ref();
-        window.is_some_and(|window| window.parent == view && surfaces.as_slice() == [window.surface])
+        window.is_some_and(|window| window.parent == view && **surfaces == [window.surface])
     };
     let (inner, outer) = (state.open.last().copied(), plan.views[view].level());
     let reference = draw.stencil_reference;

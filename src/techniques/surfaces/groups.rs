@@ -8,19 +8,20 @@ use glam::Vec3;
 use crate::frame::plan::View;
 use crate::frame::state::{Blend, Cull, Depth, DepthBias, NearPlane, State, Winding};
 use crate::frame::stencil::StencilState;
-use crate::frame::{Draw, DrawSet, Look, Program, Surface, Target};
+use crate::frame::{Draw, DrawSet, List, Look, Program, Surface, Target};
 use crate::geometry::frustum::screen_rect;
 use crate::scene::solid::Role;
 use crate::scene::{AlphaMode, Pose, Scene};
 use crate::settings::Texturing;
 use crate::techniques::decals::{Decal, Decals};
 use crate::techniques::mirrors::Mirrors;
+use crate::techniques::workspace::{Lent, Workspace};
 
 /// Surfaces that share state and shader.
 #[derive(Debug)]
 pub struct SurfaceGroup {
     pub(in crate::techniques) kind: Kind,
-    pub(in crate::techniques) surfaces: Vec<Surface>,
+    pub(in crate::techniques) surfaces: List<Surface>,
 }
 
 /// What decides the state and the shader a surface is drawn with.
@@ -53,6 +54,8 @@ pub struct Known<'a> {
     pub decals: &'a Decals,
     /// Where things lie before the mirror that the view looks through.
     pub places: &'a [Place],
+    /// Where lists are made.
+    pub workspace: &'a Workspace,
 }
 
 /// Where an instance lies before the plane that a view is clipped at.
@@ -69,18 +72,15 @@ pub enum Place {
 /// The scene's opaque and masked surfaces that the view may see, grouped.
 #[must_use]
 pub fn opaque_groups(known: Known<'_>, view: &View, size: [u32; 2], texturing: Texturing) -> Vec<SurfaceGroup> {
-    let Known { scene, pose, .. } = known;
+    let Known { scene, pose, workspace, .. } = known;
     let clip_from_world = view.camera.clip_from_world();
     // The radius of each instance's bounds; `None` where it is out of view.
-    let seen: Vec<Option<f32>> = scene
-        .instances()
-        .map(|(node, ..)| {
-            let bounds = pose.world_bounds(scene, node);
-            let (center, radius) = (bounds.center().as_dvec3(), bounds.radius());
-            screen_rect(center, f64::from(radius), &clip_from_world, size).map(|_| radius)
-        })
-        .collect();
-    let mut groups: Vec<SurfaceGroup> = Vec::new();
+    let seen = workspace.sizes.collect(scene.instances().map(|(node, ..)| {
+        let bounds = pose.world_bounds(scene, node);
+        let (center, radius) = (bounds.center().as_dvec3(), bounds.radius());
+        screen_rect(center, f64::from(radius), &clip_from_world, size).map(|_| radius)
+    }));
+    let mut found: Vec<(Kind, Lent<'_, Surface>)> = Vec::new();
     for (mut kind, alpha, surface) in described(known, view) {
         if texturing == Texturing::Once && kind.textured_last {
             kind.look.textured = false;
@@ -88,9 +88,9 @@ pub fn opaque_groups(known: Known<'_>, view: &View, size: [u32; 2], texturing: T
             kind.textured_last = false;
         }
         if alpha != AlphaMode::Blend && seen[surface.instance].is_some() {
-            match groups.iter_mut().find(|group| group.kind == kind) {
-                Some(group) => group.surfaces.push(surface),
-                None => groups.push(SurfaceGroup { kind, surfaces: vec![surface] }),
+            match found.iter_mut().find(|(alike, _)| *alike == kind) {
+                Some((_, surfaces)) => surfaces.push(surface),
+                None => found.push((kind, workspace.found_surfaces.collect([surface]))),
             }
         }
     }
@@ -98,9 +98,11 @@ pub fn opaque_groups(known: Known<'_>, view: &View, size: [u32; 2], texturing: T
     // order, in which instances of one mesh mostly follow each other and are drawn by one call.
     let largest = seen.iter().copied().flatten().fold(0.0, f32::max);
     let wide = |surface: &Surface| seen[surface.instance].is_some_and(|radius| radius > largest / 2.0);
-    for group in &mut groups {
-        group.surfaces.sort_by_key(wide);
-    }
+    let in_order = |(kind, surfaces): (Kind, Lent<'_, Surface>)| {
+        let [small, large] = [false, true].map(|large| surfaces.iter().filter(move |surface| wide(surface) == large));
+        SurfaceGroup { kind, surfaces: workspace.surfaces.collect(small.chain(large).copied()) }
+    };
+    let mut groups: Vec<_> = found.into_iter().map(in_order).collect();
     groups.sort_by_key(|group| group.surfaces.iter().any(wide));
     // What claims its pixels comes first, from the topmost on; its ground takes what is left.
     groups.sort_by_key(|group| Reverse(group.claims().and(group.kind.decal).map(Decal::layer)));
@@ -114,7 +116,7 @@ pub fn solid_group(known: Known<'_>, view: &View) -> Option<SurfaceGroup> {
     let caster = known.scene.solid.as_ref()?.caster?;
     let mut of_it = of_all(known, view).filter(|(.., surface)| surface.instance == caster);
     let (kind, _, surface) = of_it.find(|_| known.places[caster] != Place::Unseen)?;
-    Some(SurfaceGroup { kind, surfaces: vec![surface] })
+    Some(SurfaceGroup { kind, surfaces: vec![surface].into() })
 }
 
 pub(in crate::techniques) fn described<'a>(
@@ -133,7 +135,7 @@ pub(in crate::techniques) fn described<'a>(
 
 /// Every surface, seen or not.
 fn of_all<'a>(known: Known<'a>, view: &'a View) -> impl Iterator<Item = (Kind, AlphaMode, Surface)> + 'a {
-    let Known { scene, pose, mirrors, decals, places } = known;
+    let Known { scene, pose, mirrors, decals, places, .. } = known;
     scene.instances().enumerate().flat_map(move |(instance, (node, _, mesh))| {
         let winding = view.winding.through(pose.world_from_object[node].matrix3.determinant());
         let role = scene.solid.as_ref().map_or(Role::Object, |solid| solid.role(instance));
