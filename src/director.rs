@@ -291,7 +291,7 @@ impl<'a> Frame<'a> {
             used: 0,
             plan,
         };
-        solids::note(&mut frame.plan, settings, scene, pose);
+        frame.note_solid();
         frame.plan_views();
         frame.plan_receivers();
         frame.choose_bits();

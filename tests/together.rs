@@ -5,7 +5,8 @@ mod common;
 
 use common::Stage;
 use glam::DVec2;
-use obscura::frame::identity_color;
+use obscura::director::stage as stage_plan;
+use obscura::frame::{Capabilities, Program, identity_color};
 use obscura::headless::render::open;
 use obscura::scene::{Scene, stock};
 use obscura::settings::{Halos, MirrorMode, Operation, Planar, PlanarMode, SceneChoice, Settings, Show, SurfacePlace, Technique};
@@ -142,6 +143,53 @@ fn a_halo_surrounds_what_is_left_of_two_solids() {
             assert!(elsewhere * 50 < tagged.len(), "{operation:?}: {elsewhere} of {} tagged pixels show no solid", tagged.len());
             let count = stencil.iter().filter(|value| **value == ONCE).count();
             assert!(seen.len() > 200 && count > 200, "{operation:?}: {} of the solid, {count} glow", seen.len());
+        }
+    }
+}
+
+/// Casting a shadow and having a halo are two things.
+#[test]
+fn a_solid_that_casts_no_shadow_has_its_halo_and_one_without_a_mesh_says_that_it_has_none() {
+    let mut stage = Stage::new();
+    for operation in OPERATIONS {
+        let (scene, mut settings) = solid(operation);
+        let whole = scene.solid.clone().unwrap();
+        settings.halos.edits = [(whole.of.a, true)].into();
+        stage.set_scene(&scene);
+        stage.shoot(&settings, &scene);
+        let stencil = stage.stencil();
+
+        let mut apart = stock::build("csg").unwrap().unwrap();
+        for operand in [whole.of.a, whole.of.b] {
+            apart.nodes[operand].casts_shadow = false;
+        }
+        let shadowless = apart.combined(apart.combination_at(&settings).unwrap());
+        stage.set_scene(&shadowless);
+        let plan = stage.shoot(&settings, &shadowless).plan;
+        let of_solid = |instance: usize| [Some(whole.a), Some(whole.b), whole.caster].contains(&Some(instance));
+        assert!(plan.volumes.iter().all(|volume| !of_solid(volume.instance)), "{operation:?} casts a shadow");
+        assert!(stage.stencil() == stencil, "{operation:?}: the halo is that of a solid which casts one");
+
+        // As if the library had given up.
+        let notes = |casts: bool, glows: bool| {
+            let mut scene = scene.clone();
+            if whole.caster.is_some() {
+                scene.nodes.pop();
+            }
+            let whole = scene.solid.as_mut().unwrap();
+            (whole.casts, whole.caster, whole.refusal) = (casts, None, Some("the library gave up".into()));
+            let mut settings = settings.clone();
+            settings.halos.edits = if glows { settings.halos.edits } else { [].into() };
+            let plan = stage_plan(&settings, &scene, &Capabilities::complete()).unwrap().1;
+            let halos = plan.draws().any(|(_, draw)| draw.program == Program::Halo);
+            assert_eq!(halos, glows && operation == Operation::Union, "{operation:?}");
+            plan.notes.into_iter().filter(|note| note.starts_with("the solid")).collect::<Vec<_>>()
+        };
+        if operation != Operation::Union {
+            assert_eq!(notes(true, true), ["the solid casts no shadow and has no halo: the library gave up"]);
+            assert_eq!(notes(false, true), ["the solid has no halo: the library gave up"]);
+            assert_eq!(notes(true, false), ["the solid casts no shadow: the library gave up"]);
+            assert!(notes(false, false).is_empty());
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Two objects put together to one solid (K section 7, constructive solid geometry).
 //!
 //! What is seen of the solid is drawn from the two objects themselves ([`crate::techniques::csg`]); what casts its
-//! shadow is a mesh of its own, which a library makes ([`Scene::combined`]). The scene with that mesh is another scene:
+//! shadow, and swells to its halo, is a mesh of its own, which a library makes ([`Scene::combined`]). The scene with that mesh is another scene:
 //! one node and one mesh more, all numbers as they were.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -43,13 +43,15 @@ pub struct Combination {
 pub struct Solid {
     /// What it is made of.
     pub of: Combination,
-    /// A's instance, B's, and that of the mesh which casts the shadow; no such mesh where none could be made.
+    /// A's instance, B's, and that of the solid's own mesh, which casts the shadow; no such mesh where none could be made.
     pub a: usize,
     /// See `a`.
     pub b: usize,
     /// See `a`.
     pub caster: Option<usize>,
-    /// Why there is no mesh that casts the shadow.
+    /// A or B is meant to cast shadows: so is the solid.
+    pub casts: bool,
+    /// Why there is no mesh of it.
     pub refusal: Option<String>,
 }
 
@@ -159,28 +161,28 @@ impl Scene {
     }
 
     /// The scene in which the two are one solid: they cast no shadows any more, but the solid's mesh does, the last node of
-    /// the scene. A union casts the shadows of both, and needs none. Where no mesh can be made the solid casts none, and
-    /// says why.
+    /// the scene. A union casts the shadows of both, and needs none. Where no mesh can be made the solid casts none, has no
+    /// halo, and says why.
     #[must_use]
     pub fn combined(&self, of: Combination) -> Self {
         let mut scene = self.clone();
         let instance = |node: usize| self.instances().position(|(index, ..)| index == node).unwrap_or_default();
         let (a, b) = (instance(of.a), instance(of.b));
-        let mut solid = Solid { of, a, b, caster: None, refusal: None };
+        let casts = [of.a, of.b].iter().any(|node| self.nodes[*node].casts_shadow);
+        let mut solid = Solid { of, a, b, caster: None, casts, refusal: None };
         if of.operation != Operation::Union {
             for node in [of.a, of.b] {
                 scene.nodes[node].casts_shadow = false;
             }
-            let casts = self.nodes[of.a].casts_shadow || self.nodes[of.b].casts_shadow;
             match catch_unwind(AssertUnwindSafe(|| self.solid_mesh(&of))).unwrap_or_else(|_| Err("the library gave up".into())) {
-                Ok(Some(mesh)) if casts => {
+                Ok(Some(mesh)) => {
                     solid.caster = Some(self.instances().count());
                     scene.meshes.push(mesh);
                     let name = of.operation.words().into();
                     let mesh = Some(scene.meshes.len() - 1);
-                    scene.nodes.push(Node { name, parent: Some(of.a), mesh, ..Node::default() });
+                    scene.nodes.push(Node { name, parent: Some(of.a), mesh, casts_shadow: casts, ..Node::default() });
                 }
-                Ok(_) => {}
+                Ok(None) => {}
                 Err(why) => solid.refusal = Some(why),
             }
         }

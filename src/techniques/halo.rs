@@ -16,7 +16,8 @@
 //! "use stenciling to avoid double blending". Shells are drawn nearer than they are by three times their width:
 //! before the floor that the object stands on, and behind what stands well before it.
 //!
-//! Two solids put together ([`super::csg`]) are one object: what swells is the mesh that casts their shadow.
+//! Two solids put together ([`super::csg`]) are one object: what swells is the mesh that casts their shadow,
+//! or would if they cast any; where the library made none the plan says so.
 
 use glam::Vec3;
 
