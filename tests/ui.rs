@@ -17,8 +17,8 @@ use obscura::frame::{Camera, Capabilities, FramePlan};
 use obscura::scene::stock::StockScene;
 use obscura::scene::{self, Light, LightKind, Node, Pose, PosedLight, Scene};
 use obscura::settings::{
-    Backend, CameraChoice, Complexity, Csg, DecalMode, Failure, Halos, HybridPart, LastBounce, LightEdit, MirrorMode, Mirrors,
-    Operation, Planar, PlanarMode, SceneChoice, Settings, Show, SurfacePlace, Technique,
+    Backend, CameraChoice, Complexity, Csg, DecalMode, Diagram, Failure, Halos, HybridPart, LastBounce, LightEdit, MirrorMode,
+    Mirrors, Operation, Planar, PlanarMode, SceneChoice, Settings, Show, SurfacePlace, Technique,
 };
 use obscura::techniques::TABLE;
 use obscura::techniques::cases::{self, Class};
@@ -891,5 +891,27 @@ fn decals_are_chosen_in_the_panel() {
     for mode in DecalMode::ALL {
         click(&mut harness, &format!("Decals: {}", mode.name()));
         assert_eq!(harness.state().settings.decals, mode);
+    }
+}
+
+#[test]
+fn diagrams_are_chosen_in_the_panel_and_explained_there() {
+    let mut harness = open(Bench::new());
+    assert!(harness.query_by_label("Drawn in").is_none(), "nothing is cut open yet");
+    harness.state_mut().settings.show = Show::Rays;
+    harness.run_steps(3);
+    for what in Diagram::ALL {
+        let words = what.name().replace('-', " ");
+        let title = words[..1].to_uppercase() + &words[1..];
+        // What is shown, and a section, may have the same name: the row that begins with these words is meant.
+        let row = harness.get_by_label("Drawn in").rect().top();
+        let named = harness.get_all_by_role_and_label(Role::Button, &title);
+        let below = named.filter(|button| button.rect().bottom() > row);
+        below.min_by(|a, b| a.rect().top().total_cmp(&b.rect().top())).unwrap().click();
+        harness.run_steps(3);
+        assert_eq!(harness.state().settings.diagram, what);
+        let about = what.about();
+        let about = format!("{}{}.", about[..1].to_uppercase(), &about[1..]);
+        assert!(harness.query_by_label(&about).is_some(), "{about}");
     }
 }

@@ -53,14 +53,18 @@ pub fn settings(figure: &Figure, size: [u32; 2]) -> Settings {
 #[must_use]
 pub fn html(figures: &[&'static Figure], size: [u32; 2]) -> String {
     let mut page = String::from(HEAD);
-    for paper in Paper::ALL {
-        let mut of_paper = figures.iter().filter(|figure| figure.paper == paper).peekable();
-        if of_paper.peek().is_none() {
-            continue;
-        }
+    let of = |paper: Paper| figures.iter().filter(move |figure| figure.paper == paper);
+    let papers: Vec<_> = Paper::ALL.into_iter().filter(|paper| of(*paper).next().is_some()).collect();
+    page.push_str("<nav>\n");
+    for (number, paper) in papers.iter().enumerate() {
         // Writing to a string cannot fail.
-        let _ = writeln!(page, "<h2>{}</h2>\n<div class=\"figures\">", escaped(paper.title()));
-        for figure in of_paper {
+        let _ = writeln!(page, "<a href=\"#paper-{number}\">{}</a> {}<br>", escaped(paper.title()), of(*paper).count());
+    }
+    page.push_str("</nav>\n");
+    for (number, paper) in papers.into_iter().enumerate() {
+        let title = escaped(paper.title());
+        let _ = writeln!(page, "<h2 id=\"paper-{number}\">{title}</h2>\n<div class=\"figures\">");
+        for figure in of(paper) {
             let Figure { name, number, title, seen, instead, .. } = figure;
             let [width, height] = size;
             let _ = writeln!(
@@ -75,7 +79,7 @@ pub fn html(figures: &[&'static Figure], size: [u32; 2]) -> String {
                 let _ = writeln!(page, "<p class=\"instead\">Here with {}.</p>", escaped(instead));
             }
             let command = render_command(&settings(figure, size));
-            let _ = writeln!(page, "<code>{}</code>\n</figcaption>\n</figure>", escaped(&command));
+            let _ = writeln!(page, "<code>{}</code>\n</figcaption>\n</figure>", words(&command));
         }
         page.push_str("</div>\n");
     }
@@ -91,17 +95,22 @@ const HEAD: &str = "<!DOCTYPE html>
 <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">
 <title>Obscura: the papers' figures</title>
 <style>
-body { background: #14171c; color: #d9dbe0; font: 16px/1.5 system-ui, sans-serif; margin: 0 auto; max-width: 1400px; padding: 24px; }
-h1, h2 { color: #f0b45a; font-weight: 600; }
+body { background: #14171c; color: #d9dbe0; font: 16px/1.5 system-ui, sans-serif; margin: 0 auto; max-width: 1400px; padding: clamp(12px, 3vw, 24px); }
+h1, h2 { color: #f0b45a; font-weight: 600; line-height: 1.25; text-wrap: balance; }
 h2 { border-top: 1px solid #2b303a; font-size: 1.15em; margin-top: 2em; padding-top: 1em; }
-.figures { display: grid; gap: 28px; grid-template-columns: repeat(auto-fill, minmax(420px, 1fr)); }
-figure { background: #1c2028; border-radius: 8px; margin: 0; overflow: hidden; }
+a { color: #9fc7e8; text-decoration: none; }
+a:hover, a:focus-visible { text-decoration: underline; }
+nav { color: #9aa0ab; }
+.figures { display: grid; gap: clamp(16px, 3vw, 28px); grid-template-columns: repeat(auto-fill, minmax(min(420px, 100%), 1fr)); }
+figure { background: #1c2028; border-radius: 8px; display: flex; flex-direction: column; margin: 0; overflow: hidden; }
+figure:target { outline: 2px solid #f0b45a; }
 figure img { display: block; height: auto; width: 100%; }
 figcaption { padding: 12px 16px 16px; }
 figcaption p { margin: 6px 0; }
 figcaption b { color: #f0b45a; margin-right: 8px; }
 .instead { color: #9aa0ab; font-size: 0.9em; font-style: italic; }
-code { background: #14171c; border-radius: 4px; color: #9fc7e8; display: block; font-size: 0.8em; margin-top: 8px; overflow-wrap: anywhere; padding: 8px; user-select: all; }
+code { background: #14171c; border-radius: 4px; color: #9fc7e8; display: block; font-size: 0.8em; margin-top: 8px; min-width: 0; padding: 8px; user-select: all; }
+code span { display: inline-block; max-width: 100%; overflow-wrap: anywhere; vertical-align: top; }
 </style>
 </head>
 <body>
@@ -113,6 +122,12 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
+/// A command, broken between its words alone: a dash at the end of a line would belong to the next.
+fn words(command: &str) -> String {
+    let words: Vec<_> = command.split(' ').map(|word| format!("<span>{}</span>", escaped(word))).collect();
+    words.join(" ")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -121,10 +136,12 @@ mod tests {
     #[test]
     fn the_page_has_every_figure_with_the_command_that_draws_it() {
         let page = html(&TABLE, [640, 360]);
+        let plain = page.replace("</span> <span>", " ").replace("<code><span>", "<code>").replace("</span></code>", "</code>");
+        assert!(page.matches("<h2").count() > 2 && page.matches("href=\"#paper-").count() == page.matches("<h2").count());
         for figure in TABLE.iter() {
             assert!(page.contains(&format!("src=\"{}.png\"", figure.name)), "{}", figure.name);
             let command = render_command(&settings(figure, [640, 360]));
-            assert!(page.contains(&escaped(&command)), "{command}");
+            assert!(plain.contains(&format!("<code>{}</code>", escaped(&command))), "{command}");
         }
         assert!(page.ends_with("</html>\n") && page.matches("<figure").count() == TABLE.len());
         assert_eq!(page.matches('<').count(), page.matches('>').count(), "every tag is closed");
