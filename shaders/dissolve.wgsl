@@ -69,10 +69,20 @@ fn threshold(pattern: f32, at: vec2u) -> f32 {
     return (f32(at.x) + 0.5) / frame.size.x;
 }
 
+struct Turning {
+    @builtin(position) at: vec4f,
+    @location(0) @interpolate(flat) pattern: f32,       // no uniform: shared/light.wgsl says why
+}
+
+@vertex
+fn pattern_vertex(@builtin(vertex_index) index: u32) -> Turning {
+    return Turning(full_screen_corner(index), draw.constant.x);
+}
+
 // The stencil is all that changes: the constant has the pattern and the amount.
 @fragment
-fn pattern(@builtin(position) at: vec4f) {
-    if threshold(draw.constant.x, vec2u(at.xy)) >= draw.constant.y {
+fn pattern(pixel: Turning) {
+    if threshold(pixel.pattern, vec2u(pixel.at.xy)) >= draw.constant.y {
         discard;
     }
 }

@@ -9,10 +9,10 @@ fn transparent(point: SurfacePoint, @builtin(front_facing) front: bool) -> @loca
     let base = base_color(point);
     let normal = seen_normal(point, front);
     var color = ambient_light(material, base.rgb, normal.y) + emitted_light(material);
-    if material.unlit < 0.5 {
-        for (var i = 0u; i < frame.light_count; i++) {
-            color += light_on_surface(lights[i], base.rgb, point, normal);
-        }
+    // What is not seen needs none. (Not a branch on uniforms alone: shared/light.wgsl.)
+    let light_count = select(0u, frame.light_count, (base.a > 0.0) & (material.unlit < 0.5));
+    for (var i = 0u; i < light_count; i++) {
+        color += light_on_surface(lights[i], base.rgb, point, normal);
     }
     return vec4f(color * base.a, base.a);
 }

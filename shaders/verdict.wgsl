@@ -7,7 +7,8 @@
 @fragment
 fn verdict(point: SurfacePoint) -> @location(0) vec4f {
     let offset = draw.light.position - point.world;
-    if draw.light.kind != DIRECTIONAL && dot(offset, offset) * draw.light.inverse_range_squared > 1.0 {
+    // Not a branch on uniforms alone: shared/light.wgsl.
+    if (draw.light.kind != DIRECTIONAL) & (dot(offset, offset) * draw.light.inverse_range_squared > 1.0) {
         discard;
     }
     return draw.constant;

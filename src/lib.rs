@@ -169,7 +169,7 @@
 //! The shaders are specialised for what a step's materials and light have ([`frame::Look`]), because a
 //! software GPU pays for every instruction of every pixel. For the same reason light is worked out at the
 //! vertices where it changes in proportion, and the picture's format does not convert: the shaders encode
-//! sRGB. Small casters' volumes are drawn by one call a step (`gpu::merged`), instances of one mesh by one.
+//! sRGB. No branch in a shader asks uniforms alone: lavapipe would work the shader out anew at every draw, and keep each copy. Small casters' volumes are drawn by one call a step (`gpu::merged`), instances of one mesh by one.
 //!
 //! Which triangles face the light is decided once; silhouette, caps and the eye's count read that one
 //! decision, so a volume is closed whatever rounding does ([`geometry::silhouette`]). What the light sees

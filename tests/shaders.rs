@@ -209,3 +209,48 @@ fn what_is_matt_is_so_on_both_sides() {
     let bound = format!("const MATT: f32 = {:?};", obscura::techniques::surfaces::MATT);
     assert!(include_str!("../shaders/shared/light.wgsl").contains(&bound), "{bound}");
 }
+
+/// Lavapipe works a shader out anew at every draw where uniforms alone decide a branch or a loop's end, and keeps each
+/// copy until the pipeline is dropped: ten megabytes a frame, in a scene of many materials.
+#[test]
+fn no_branch_is_decided_by_uniforms_alone() {
+    let files = |folder: &str| std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect::<Vec<_>>();
+    let shaders = files("shaders").into_iter().chain(files("shaders/shared"));
+    for file in shaders.filter(|file| file.extension().is_some_and(|extension| extension == "wgsl")) {
+        for (number, line) in (1..).zip(std::fs::read_to_string(&file).unwrap().lines()) {
+            let line = line.trim();
+            let code = line.split("//").next().unwrap_or_default();
+            assert!(decided_by_uniforms(code).is_none(), "{}:{number}: {line}", file.display());
+        }
+    }
+    for (code, decides) in [
+        ("if material.unlit < 0.5 {", true),
+        ("if !GLOSSY || (material.roughness >= MATT && material.metallic <= 0.0) {", true),
+        ("for (var i = 0u; i < frame.light_count; i++) {", true),
+        ("if draw.light.kind != DIRECTIONAL && far {", true),
+        ("if CLIPPED && dot(frame.clip_plane, vec4f(world, 1.0)) < 0.0 {", false),
+        ("if base_color(point).a < material.cutoff {", false),
+        ("if GLOSSY {", false),
+        ("for (var i = 0u; i < count; i++) {", false),
+    ] {
+        assert_eq!(decided_by_uniforms(code).is_some(), decides, "{code}");
+    }
+}
+
+/// The part of a branch or of a loop's head that asks uniforms and nothing else.
+fn decided_by_uniforms(code: &str) -> Option<&str> {
+    let is_uniform = |name: &str| ["material.", "frame.", "draw."].iter().any(|of| name.starts_with(of));
+    let names = |asked: &str| {
+        let parts = asked.split(|c: char| !(c.is_alphanumeric() || "._".contains(c))).map(str::to_owned);
+        parts.filter(|part| part.starts_with(|c: char| c.is_ascii_lowercase())).collect::<Vec<_>>()
+    };
+    if code.starts_with("for ") {
+        return code.split(';').nth(1).filter(|end| names(end).iter().any(|name| is_uniform(name)));
+    }
+    let asked = code.trim_start_matches("} else ").strip_prefix("if ")?;
+    // Each side of these is a branch of its own.
+    asked.split("&&").flat_map(|part| part.split("||")).find(|part| {
+        let names = names(part);
+        !names.is_empty() && names.iter().all(|name| is_uniform(name))
+    })
+}

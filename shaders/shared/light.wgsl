@@ -15,12 +15,14 @@ struct Finish {
 
 // From the glTF roughness: Blinn-Phong, normalised, its lobe the Gaussian it nearly is.
 fn finish_of(material: Material) -> Finish {
-    if !GLOSSY || (material.roughness >= MATT && material.metallic <= 0.0) {
+    if !GLOSSY {
         return Finish(1.0 / PI, 0.0, 0.0, 0.0);
     }
+    // Not a branch: one that uniforms alone decide makes lavapipe copy the shader at every draw, and keep the copies.
+    let shines = select(1.0, 0.0, (material.roughness >= MATT) & (material.metallic <= 0.0));
     let alpha = max(material.roughness * material.roughness, 0.04);
     let shininess = max(2.0 / (alpha * alpha) - 2.0, 0.0);
-    let strength = (shininess + 8.0) / (8.0 * PI);
+    let strength = shines * (shininess + 8.0) / (8.0 * PI);
     let clear = 0.04 * (1.0 - material.roughness) * (1.0 - material.metallic);
     return Finish((1.0 - material.metallic) / PI, material.metallic * strength, clear * strength, shininess * log2(exp(1.0)));
 }

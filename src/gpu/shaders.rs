@@ -209,7 +209,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::SolidMerge, "solid.wgsl", "full_screen_vertex", "solid_merge", Vertices::None, &[]),
     entry(Program::SolidMergeEach, "solid.wgsl", "full_screen_vertex", "solid_merge_each", Vertices::None, &[]),
     entry(Program::Projected, "volume.wgsl", "thrown_vertex", "projected", Vertices::Volume, &[]),
-    entry(Program::Pattern, "dissolve.wgsl", "full_screen_vertex", "pattern", Vertices::None, &[]),
+    entry(Program::Pattern, "dissolve.wgsl", "pattern_vertex", "pattern", Vertices::None, &[]),
     entry(Program::LayKept, "dissolve.wgsl", "full_screen_vertex", "lay_kept", Vertices::None, &[]),
     entry(Program::VolumeFill, "volume.wgsl", "volume_vertex", "projected", Vertices::Volume, &[]),
     entry(Program::Geometry, "geometry.wgsl", "geometry_vertex", "geometry", Vertices::Surface, SURFACE),
