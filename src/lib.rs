@@ -183,7 +183,9 @@
 //! lavapipe finds depths as if they were not moved: so close to an edge a steep triangle gets a depth from
 //! beyond its edge. Where that edge is a silhouette's in a fold, the side that begins there then lies before the surface
 //! instead of behind it, and the count is off by one. One pixel in some ten to thirty million is wrong by that. Moving the corners to the grid in the
-//! vertex shader was tried: coverage and depth agree then, but facets tilt, and more is lost than won.
+//! vertex shader was tried: coverage and depth agree then, but facets tilt, and more is lost than won. Planar shadows ask
+//! nothing of depth, but their outlines lie on the grid too, and may be moved past a pixel's centre: two pixels are
+//! known where that is no edge, because the gap beyond is narrower than a pixel's places stand apart (`tests/planar_grid.rs`).
 //!
 //! A volume may be thrown from something else than its caster's silhouette: a planar cut-out, or the
 //! silhouette flattened into one ([`frame::Cutout`]). The shape of a volume and the way it is counted

@@ -352,7 +352,7 @@ fn reflections_have_planar_shadows_too() {
             .collect();
         assert!(views > 4 && throwing.len() > 1, "{mode:?}: {throwing:?} of {views}");
         // Beside a gap between two shadows that is 0.07 of a pixel wide, which the five places that decide a pixel all
-        // miss: the rasteriser moves the outline to its grid, and past the centre.
+        // miss: the rasteriser moves the outline to its grid, and past the centre. `planar_grid.rs` works that out.
         let known = [(1, 23, 84)];
         assert!(assert_exact_but(&scene, &settings, &known) > 100, "{mode:?}");
     }
