@@ -1,5 +1,7 @@
 //! Walks the plan and records it: neighbours with the same attachments share one render pass.
 
+use std::ops::Range;
+
 use super::compute::ARGUMENTS;
 use super::context::Context;
 use super::frame_buffers::{FrameBuffers, STRIDE, range_of};
@@ -470,19 +472,26 @@ impl Encode<'_> {
         let (Some(long), Some(short)) = (self.frame.indices.buffer(), self.frame.short_indices.buffer()) else { return };
         let mut bound = None;
         let mut bound_format = None;
-        let mut merged_to = 0;
+        let (mut merged_to, mut computed_to) = (0, 0);
         for (at, part) in parts.iter().enumerate() {
             if let Some(run) = self.frame.merged.run(number, at) {
                 self.record_merged(pass, run, drawn);
                 merged_to = run.parts.end;
                 (bound, bound_format) = (None, None);
             }
-            if at < merged_to {
+            if at < merged_to.max(computed_to) {
                 continue;
             }
             if let Some(slot) = self.frame.compute.slot(*part) {
-                let vertices = &self.buffers.vertices(plan.volumes[part.volume].instance).volume;
-                self.record_computed(pass, slot, vertices);
+                let vertices_of = |part: &VolumePart| self.buffers.vertices(plan.volumes[part.volume].instance);
+                let vertices = vertices_of(part);
+                // What is of the same vertices and stands next to each other among the arguments is one call.
+                let next = |(part, slot): &(&VolumePart, u32)| {
+                    self.frame.compute.slot(**part) == Some(*slot) && std::ptr::eq(vertices_of(part), vertices)
+                };
+                let count = 1 + parts[at + 1..].iter().zip(slot + 1..).take_while(next).count();
+                self.record_computed(pass, slot..slot + u32::try_from(count).unwrap_or(1), &vertices.volume);
+                computed_to = at + count;
                 (bound, bound_format) = (None, None);
                 drawn.draws += 1;
                 continue;
@@ -517,13 +526,13 @@ impl Encode<'_> {
         }
     }
 
-    /// A part whose indices a compute shader has found: it alone knows how many.
-    fn record_computed(&self, pass: &mut wgpu::RenderPass<'_>, slot: u32, vertices: &wgpu::Buffer) {
+    /// Parts whose indices a compute shader has found: it alone knows how many.
+    fn record_computed(&self, pass: &mut wgpu::RenderPass<'_>, slots: Range<u32>, vertices: &wgpu::Buffer) {
         let compute = &self.frame.compute;
         let (Some(indices), Some(draws)) = (compute.indices.buffer(), compute.draws.buffer()) else { return };
         pass.set_vertex_buffer(0, vertices.slice(..));
         pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed_indirect(draws, u64::from(slot) * ARGUMENTS);
+        pass.multi_draw_indexed_indirect(draws, u64::from(slots.start) * ARGUMENTS, slots.len() as u32);
     }
 
     fn record_merged(&self, pass: &mut wgpu::RenderPass<'_>, run: &merged::Run, drawn: &mut Drawn) {

@@ -432,6 +432,12 @@ impl FrameBuffers {
         }
     }
 
+    /// The volume whose indices a volume shares; itself, mostly.
+    #[must_use]
+    pub fn first_of_shape(&self, volume: usize) -> usize {
+        self.scratch.same_shape.first[volume]
+    }
+
     /// Indices built this frame, and their bytes.
     #[must_use]
     pub fn index_count(&self) -> [u64; 2] {

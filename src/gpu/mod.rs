@@ -49,13 +49,14 @@ use crate::scene::{Pose, Scene};
 pub struct FrameStats {
     /// Draw calls.
     pub draws: u32,
-    /// Triangles drawn, volumes included, once for each pass.
+    /// Triangles drawn, volumes included, once for each pass; of volumes whose silhouettes the device finds none until
+    /// [`readback::add_computed`] has asked it.
     pub triangles: u64,
     /// Shadow volumes counted.
     pub volumes: u32,
-    /// Triangles of shadow volumes.
+    /// Triangles of shadow volumes, likewise.
     pub volume_triangles: u64,
-    /// Indices of shadow volumes built.
+    /// Indices of shadow volumes built, likewise.
     pub indices: u64,
     /// Their bytes: two an index for casters of up to 32768 vertices, four for others.
     pub index_bytes: u64,

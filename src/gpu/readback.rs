@@ -1,5 +1,7 @@
 //! Pictures and stencil values back from the device.
 
+use std::collections::HashSet;
+
 use super::context::{Context, GpuError};
 use super::{FrameStats, Renderer};
 use crate::frame::{DrawSet, FramePlan, VolumePart, WideCounts};
@@ -41,6 +43,7 @@ pub fn picture(
     let mut stats = renderer.render(context, plan, scene, pose, &view, PICTURE_FORMAT)?;
     let pixels = read(context, &texture, wgpu::TextureAspect::All, 4, plan.size)?;
     stats.gpu_ms = renderer.gpu_ms();
+    add_computed(context, renderer, plan, &mut stats)?;
     if let Some(error) = context.take_error() {
         return Err(GpuError::Device(error));
     }
@@ -161,6 +164,34 @@ pub fn volume_parts(context: &Context, renderer: &Renderer, plan: &FramePlan) ->
         }
     }
     Ok(parts)
+}
+
+/// What the device alone knows of the frame that was drawn last, by `plan`: the volumes whose silhouettes it found, added to
+/// the CPU's numbers.
+///
+/// # Errors
+/// A device that does not answer.
+pub fn add_computed(context: &Context, renderer: &Renderer, plan: &FramePlan, stats: &mut FrameStats) -> Result<(), GpuError> {
+    let frame = renderer.frame_buffers();
+    let computed = plan.volumes.iter().any(|volume| !volume.silhouette.is_cpu());
+    let Some(draws) = frame.compute.draws.buffer().filter(|_| computed) else { return Ok(()) };
+    let draws = all_words(context, draws)?;
+    // Views that see one volume draw one set of indices.
+    let mut built = HashSet::new();
+    for (_, draw) in plan.draws() {
+        let DrawSet::Volumes(parts) = &draw.set else { continue };
+        for part in parts {
+            let Some(slot) = frame.compute.slot(*part) else { continue };
+            let indices = u64::from(draws[slot as usize * 5]);
+            stats.volume_triangles += indices / 3;
+            stats.triangles += indices / 3;
+            if built.insert((frame.first_of_shape(part.volume), part.part)) {
+                stats.indices += indices;
+                stats.index_bytes += indices * 4;
+            }
+        }
+    }
+    Ok(())
 }
 
 /// All of a buffer that can be copied from.

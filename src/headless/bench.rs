@@ -251,10 +251,11 @@ impl Bench {
         let begun = Instant::now();
         let (pose, plan) =
             planner.stage_changed(settings, scene, context.capabilities(), gathered, |pose| go_round(pose, turns, radius))?;
-        let drawn = renderer.render(context, &plan, scene, &pose, output, readback::PICTURE_FORMAT)?;
+        let mut drawn = renderer.render(context, &plan, scene, &pose, output, readback::PICTURE_FORMAT)?;
         let submitted = begun.elapsed();
         context.wait_idle()?;
         let done = begun.elapsed();
+        readback::add_computed(context, renderer, &plan, &mut drawn)?;
         planner.take_back((pose, plan));
         if let Some(error) = context.take_error() {
             return Err(GpuError::Device(error).into());
