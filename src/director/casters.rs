@@ -143,8 +143,9 @@ impl<'a> Frame<'a> {
         };
         let end = ends_on(within).or_else(|| ends_on(receivers));
         let in_range = bounds.transformed(&world_from_object).distance_to(light.position) <= light.range;
-        let body = Body::boxed(&bounds, &world_from_object);
         let own = reflected.is_none().then_some(instance);
+        let reflection = own.is_none().then(|| Body::boxed(&bounds, &world_from_object));
+        let body = reflection.as_ref().unwrap_or(&self.outlook.stalls.boxes[instance]);
         Some(Caster {
             capabilities: self.capabilities,
             scene: self.scene,
@@ -162,7 +163,7 @@ impl<'a> Frame<'a> {
             node,
             mesh,
             light,
-            sight: audience.sight((own, &body), &corners, in_range, end),
+            sight: audience.sight((own, body), &corners, in_range, end),
             end,
             receivers,
             eye_count: OnceCell::new(),

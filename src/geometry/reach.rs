@@ -214,24 +214,30 @@ impl Body {
     /// of the box projected away from the light.
     #[must_use]
     pub fn volume(corners: &[DVec3; 8], light: DVec4, end: Option<DVec4>) -> Self {
-        let mut body = Self::default();
-        body.points.extend(*corners);
+        let mut body = Self::volume_hull(corners, light, end);
         body.edges.extend([1, 2, 4].map(|corner| corners[corner] - corners[0]));
         body.axes.extend(box_axes(corners));
-        let ray = |corner: DVec3| (corner * light.w - light.truncate()).normalize_or_zero();
-        body.axes.extend(BOX_EDGES.map(|[a, b]| (corners[b] - corners[a]).cross(ray(corners[a])).normalize_or_zero()));
+        let rays = corners.map(|corner| ray(corner, light));
+        let across = |[a, b]: [usize; 2]| (corners[b] - corners[a]).cross(rays[a]).normalize_or_zero();
+        body.axes.extend(BOX_EDGES.map(across));
         if light.w == 0.0 {
-            body.directions.push(ray(corners[0]));
-            body.edges.push(ray(corners[0]));
-            return body;
+            body.edges.push(rays[0]);
+        } else {
+            body.edges.extend(rays);
+            body.axes.extend(end.map(|plane| plane.truncate()));
         }
-        body.edges.extend(corners.map(ray));
+        body
+    }
+
+    /// The same places and directions alone: for what asks for its [hull](Self::hull) and compares it with nothing.
+    #[must_use]
+    pub fn volume_hull(corners: &[DVec3; 8], light: DVec4, end: Option<DVec4>) -> Self {
+        let mut body = Self::default();
+        body.points.extend(*corners);
         match end {
-            Some(plane) => {
-                body.points.extend(thrown(corners, light.truncate(), plane));
-                body.axes.push(plane.truncate());
-            }
-            None => body.directions.extend(corners.map(ray)),
+            _ if light.w == 0.0 => body.directions.push(ray(corners[0], light)),
+            Some(plane) => body.points.extend(thrown(corners, light.truncate(), plane)),
+            None => body.directions.extend(corners.map(|corner| ray(corner, light))),
         }
         body
     }
@@ -331,6 +337,11 @@ impl Body {
             self.facets.push(facet_away((b - a).cross(edge(a)), a, inside));
         }
     }
+}
+
+/// The way from a light past a corner: unit.
+fn ray(corner: DVec3, light: DVec4) -> DVec3 {
+    (corner * light.w - light.truncate()).normalize_or_zero()
 }
 
 /// The plane through `on`, its unit normal towards where `inside` is not.

@@ -26,6 +26,8 @@
 //!
 //! M calls them so for a bound by boxes, and so do we: case 2 and 3 say *may be*, not *is*.
 
+use std::cell::OnceCell;
+
 use glam::{DMat4, DVec3, DVec4};
 
 use crate::frame::Reason;
@@ -168,6 +170,8 @@ pub struct Audience<'a> {
     cone: Option<Body>,
     /// Instances that are in view and that the light reaches, the largest first.
     receivers: Lent<'a, usize>,
+    /// Of each instance, whether it is one of them.
+    receives: Lent<'a, bool>,
 }
 
 /// One caster's volume before its audience.
@@ -215,6 +219,8 @@ impl<'a> Audience<'a> {
                 && cone.as_ref().is_none_or(|cone| cone.may_meet(body))
         };
         let receivers = workspace.numbers.collect(stalls.by_size.iter().copied().filter(reached));
+        let mut receives = workspace.flags.collect(stalls.boxes.iter().map(|_| false));
+        receivers.iter().for_each(|receiver| receives[*receiver] = true);
         Self {
             light,
             stalls,
@@ -228,6 +234,7 @@ impl<'a> Audience<'a> {
             occlusion: Body::occlusion(light.into(), camera.near_rectangle(), camera.eye),
             cone,
             receivers,
+            receives,
         }
     }
 
@@ -272,17 +279,19 @@ impl<'a> Audience<'a> {
             return dropped(Reason::OutOfCone);
         }
         let light = DVec4::from(self.light);
-        let volume = Body::volume(corners, light, self.sooner(corners, end));
-        if !(in_view || self.view.may_meet(&volume) && self.stalls.in_window(&volume)) {
+        // Of what is in view and receives light nothing more is asked: it shades itself.
+        let volume = OnceCell::new();
+        let volume = || volume.get_or_init(|| Body::volume(corners, light, self.sooner(corners, end)));
+        if !(in_view || self.view.may_meet(volume()) && self.stalls.in_window(volume())) {
             return dropped(Reason::OutOfView);
         }
-        let receives = |receiver: &usize| Some(*receiver) == instance || self.stalls.boxes[*receiver].may_meet(&volume);
-        if !self.receivers.iter().any(receives) {
+        let shades_itself = instance.is_some_and(|instance| self.receives[instance]);
+        if !(shades_itself || self.receivers.iter().any(|receiver| self.stalls.boxes[*receiver].may_meet(volume()))) {
             return dropped(Reason::ReachesNothing);
         }
         // All that is drawn of it, not only what matters: its parts go into steps whose scissors differ,
         // and a side that is drawn where its cap is cut off would count by itself.
-        let drawn = Body::volume(corners, light, end);
+        let drawn = Body::volume_hull(corners, light, end);
         let Some(rect) = hull_rect(drawn.hull(), &self.clip_from_world, self.size).and_then(|rect| common(rect, self.scissor))
         else {
             return dropped(Reason::OutOfView);
