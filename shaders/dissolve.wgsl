@@ -90,8 +90,8 @@ fn pattern(pixel: Turning) {
 @group(1) @binding(0) var kept: texture_2d<f32>;
 @group(1) @binding(1) var kept_sampler: sampler;
 
-// The picture that was kept, where the stencil lets it through.
+// The picture that was kept, where the stencil lets it through: as light that will be exposed as the second picture is.
 @fragment
 fn lay_kept(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    return textureSampleLevel(kept, kept_sampler, at.xy / frame.size, 0.0);
+    return textureSampleLevel(kept, kept_sampler, at.xy / frame.size, 0.0) * vec4f(vec3f(draw.constant.x), 1.0);
 }

@@ -237,7 +237,7 @@ impl<'a> Frame<'a> {
         );
         let reads_samples = settings.technique == Technique::Wide || scene.solid.is_some();
         let each_sample = !reads_samples || capabilities.wide_four_samples;
-        let dissolves = dissolve::wanted(settings).is_some();
+        let dissolves = dissolve::wanted(settings);
         let samples = if exact_values || dissolves || !capabilities.four_samples || !each_sample { 1 } else { settings.samples };
         let FramePlan { mut notes, mut views, mut points, volumes, steps, .. } = before.emptied();
         notes.extend(capabilities.lacks().iter().map(|lack| format!("no {}: {}", lack.feature, lack.instead)));
@@ -270,6 +270,7 @@ impl<'a> Frame<'a> {
             notes,
             reflections: Reflections::default(),
             breaks: None,
+            then: None,
         };
         let outlook = Outlook::new((scene, pose), (0, &plan.views[0]), None, workspace);
         let (sights, mirrors, receivers) = (Vec::new(), Mirrors::default(), Receivers::default());

@@ -146,7 +146,8 @@
 //! ```
 //!
 //! A picture that dissolves into another is two frames in one plan, one after the other; the first is kept in a texture,
-//! a pattern marks the stencil, and the first is laid again where nothing is marked (`director::dissolve`).
+//! a pattern marks the stencil, and the first is laid again where nothing is marked (`director::dissolve`). A frame of
+//! another scene ([`scene::Scene::partner`]) is a plan by itself ([`frame::FramePlan::then`]), drawn into the same targets.
 //!
 //! Decals have one bit for as long as they are drawn, before the lights or after them ([`techniques::decals`]): it is free
 //! again when their ground is unmarked. Depth complexity and the playground have a frame, and all eight bits, to

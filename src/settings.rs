@@ -149,6 +149,37 @@ impl Default for Settings {
     }
 }
 
+impl Settings {
+    /// The same without what speaks of one scene's nodes, surfaces, lights and cameras: for another scene.
+    #[must_use]
+    pub fn of_another_scene(self, scene: SceneChoice) -> Self {
+        Self {
+            scene,
+            technique: self.technique,
+            show: self.show,
+            size: self.size,
+            samples: self.samples,
+            smooth_terminator: self.smooth_terminator,
+            lighting: self.lighting,
+            counting: self.counting,
+            decals: self.decals,
+            dissolve: self.dissolve,
+            playground: self.playground,
+            complexity: self.complexity,
+            diagram: self.diagram,
+            culling: self.culling,
+            silhouettes: self.silhouettes,
+            mirrors: self.mirrors.of_another_scene(),
+            halos: self.halos.of_another_scene(),
+            csg: self.csg.of_another_scene(),
+            planar: self.planar.of_another_scene(),
+            adapter: self.adapter,
+            shaders: self.shaders,
+            ..Self::default()
+        }
+    }
+}
+
 /// The longest side of a picture, pixels: what every device of the last decade can draw into.
 pub const MAX_SIZE: u32 = 8192;
 

@@ -159,6 +159,8 @@ fn depth_complexity_is_printed() {
     assert!(text.contains(&format!("{average:.3} on average")) && text.contains(&format!("{most} at most")), "{text}");
     assert!(bad(folder.path(), &["render", "cubes", "--out", "a.png", "--complexity", "depth"]).contains("updates, fragments"));
     assert!(bad(folder.path(), &["render", "cubes", "--out", "a.png", "--diagram", "side"]).contains("rays, slice, ends"));
+    let unknown = bad(folder.path(), &["render", "cubes", "--out", "a.png", "--dissolve-scene", "nowhere"]);
+    assert!(unknown.contains("stock scene") && unknown.contains("courtyard, cubes"), "{unknown}");
     assert!(bad(folder.path(), &["render", "cubes", "--out", "a.png", "--decals", "on"]).contains("z-fighting, offset, stencil"));
 }
 

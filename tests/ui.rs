@@ -915,3 +915,21 @@ fn diagrams_are_chosen_in_the_panel_and_explained_there() {
         assert!(harness.query_by_label(&about).is_some(), "{about}");
     }
 }
+
+#[test]
+fn what_a_picture_dissolves_into_is_chosen_in_the_panel() {
+    let mut harness = open(Bench::new());
+    harness.get_by_label("Dissolve").click();
+    harness.run_steps(3);
+    harness.get_by_role_and_label(Role::ComboBox, "Into scene").click();
+    harness.run_steps(3);
+    // Scenes to open have the same names; the list that has just come down is the last.
+    harness.get_all_by_role_and_label(Role::Button, "cubes").last().unwrap().click();
+    harness.run_steps(3);
+    assert_eq!(harness.state().settings.dissolve.scene.as_deref(), Some("cubes"));
+    harness.get_by_role_and_label(Role::ComboBox, "Into technique").click();
+    harness.run_steps(3);
+    harness.get_all_by_role_and_label(Role::Button, TABLE[1].title).last().unwrap().click();
+    harness.run_steps(3);
+    assert!(harness.state().settings.dissolve.into.is_some());
+}

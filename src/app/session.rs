@@ -10,6 +10,7 @@ use crate::cli::render_command;
 use crate::failures::demonstration;
 use crate::figures;
 use crate::frame::{Capabilities, FramePlan};
+use crate::headless::render::put_together;
 use crate::scene::open::{Loading, load_on_thread};
 use crate::scene::{Pose, Scene, doctor, stock};
 use crate::settings::{Failure, SceneChoice, Settings, Show};
@@ -22,8 +23,10 @@ const GOOD_NEWS: Duration = Duration::from_secs(8);
 /// The scene that is drawn.
 pub(super) struct Loaded {
     pub scene: Arc<Scene>,
-    /// As it was opened: no solids put together.
+    /// As it was opened: no solids put together, and no partner.
     opened: Arc<Scene>,
+    /// The stock scene that is its partner, or could not be.
+    dissolves_into: Option<String>,
     doctor: String,
     floor: bool,
 }
@@ -233,7 +236,7 @@ impl Session {
                 tracing::info!("opened {}", opening.name);
                 let doctor = doctor::report(&scene).to_string();
                 let scene = Arc::new(scene);
-                self.loaded = Some(Loaded { doctor, opened: scene.clone(), scene, floor: opening.floor });
+                self.loaded = Some(Loaded { doctor, opened: scene.clone(), dissolves_into: None, scene, floor: opening.floor });
                 self.verification = Verification::default();
                 self.drawn = None;
                 self.drawn_from = None;
@@ -255,19 +258,23 @@ impl Session {
         }
     }
 
-    /// Puts the scene's two solids together, or takes them apart, where settings or time ask for it: `upload` brings what
+    /// Puts the scene's two solids together, or takes them apart, and finds the scene that it dissolves into, where settings or time ask for it: `upload` brings what
     /// comes of it to the device.
     pub fn put_together(&mut self, upload: impl FnOnce(&Scene) -> Result<(), String>) -> Result<(), String> {
         let Some(loaded) = &mut self.loaded else { return Ok(()) };
         let wanted = loaded.opened.combination_at(&self.settings);
         let there = loaded.scene.solid.as_ref().map(|solid| &solid.of);
-        if wanted.is_none() && there.is_none() || wanted.as_ref().zip(there).is_some_and(|(wanted, there)| wanted.is_like(there))
-        {
+        let like = wanted.is_none() && there.is_none()
+            || wanted.as_ref().zip(there).is_some_and(|(wanted, there)| wanted.is_like(there));
+        let into = &self.settings.dissolve.scene;
+        if like && loaded.dissolves_into == *into {
             return Ok(());
         }
-        let scene = wanted.map_or_else(|| loaded.opened.clone(), |wanted| Arc::new(loaded.opened.combined(wanted)));
+        let as_opened = wanted.is_none() && into.is_none();
+        let together = || Arc::new(put_together(&self.settings, (*loaded.opened).clone()));
+        let scene = if as_opened { loaded.opened.clone() } else { together() };
         upload(&scene)?;
-        loaded.scene = scene;
+        (loaded.scene, loaded.dissolves_into) = (scene, into.clone());
         Ok(())
     }
 

@@ -109,30 +109,7 @@ impl PictureArguments {
     pub(super) fn settings(&self, scene: Option<&OsStr>, base: Settings) -> Result<Settings, InputError> {
         let mut settings = base;
         if let Some(word) = scene {
-            settings = Settings {
-                scene: scene_choice(word)?,
-                technique: settings.technique,
-                show: settings.show,
-                size: settings.size,
-                samples: settings.samples,
-                smooth_terminator: settings.smooth_terminator,
-                lighting: settings.lighting,
-                counting: settings.counting,
-                decals: settings.decals,
-                dissolve: settings.dissolve,
-                playground: settings.playground,
-                complexity: settings.complexity,
-                diagram: settings.diagram,
-                culling: settings.culling,
-                silhouettes: settings.silhouettes,
-                mirrors: settings.mirrors.of_another_scene(),
-                halos: settings.halos.of_another_scene(),
-                csg: settings.csg.of_another_scene(),
-                planar: settings.planar.of_another_scene(),
-                adapter: settings.adapter,
-                shaders: settings.shaders,
-                ..Settings::default()
-            };
+            settings = settings.of_another_scene(scene_choice(word)?);
         }
         if let Some(name) = &self.failure {
             let failure = by_name("failure", name, Failure::ALL, Failure::name)?;

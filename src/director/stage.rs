@@ -13,7 +13,7 @@ use crate::frame::{Camera, CameraError, Capabilities, FramePlan, Gather};
 use crate::scene::area::sequence;
 use crate::scene::pose::Poser;
 use crate::scene::{Pose, Sampling, Scene};
-use crate::settings::{MAX_FRAMES, MirrorLight, Settings, Show};
+use crate::settings::{MAX_FRAMES, MirrorLight, SceneChoice, Settings, Show};
 use crate::techniques::planar as planar_shadows;
 use crate::techniques::workspace::Workspace;
 
@@ -59,7 +59,7 @@ pub fn stage(settings: &Settings, scene: &Scene, capabilities: &Capabilities) ->
 pub fn frames(settings: &Settings) -> u32 {
     // Exact values and false colours have no mean.
     let one_frame = !matches!(settings.show, Show::Final | Show::Volumes | Show::Wireframe);
-    if one_frame || dissolve::wanted(settings).is_some() { 1 } else { settings.lighting.accumulate.clamp(1, MAX_FRAMES) }
+    if one_frame || dissolve::wanted(settings) { 1 } else { settings.lighting.accumulate.clamp(1, MAX_FRAMES) }
 }
 
 /// [`stage`] for one of the [`frames`], from 0: each has other points of the lights with a size, and all
@@ -173,10 +173,33 @@ impl Planner {
         }
         let gather = (frames > 1).then_some(Gather { frame, frames });
         let mut plan = plan(settings, scene, &pose, camera, capabilities, gather, (workspace, plan_before));
-        if let Some(into) = dissolve::wanted(settings) {
-            let second = Settings { technique: into, ..settings.clone() };
-            let second = super::plan(&second, scene, &pose, camera, capabilities, gather, (workspace, FramePlan::default()));
-            plan = dissolve::mixed(plan, second, &settings.dissolve, settings.time);
+        if dissolve::wanted(settings) {
+            let technique = settings.dissolve.into.unwrap_or(settings.technique);
+            let second = Settings { technique, ..settings.clone() };
+            let spare = (&*workspace, FramePlan::default());
+            match (&settings.dissolve.scene, &scene.partner) {
+                (None, _) => {
+                    let second = super::plan(&second, scene, &pose, camera, capabilities, gather, spare);
+                    plan = dissolve::mixed(plan, second, &settings.dissolve, settings.time);
+                }
+                (Some(name), Some(partner)) => {
+                    let time = settings.time;
+                    let second = Settings { time, ..second.of_another_scene(SceneChoice::Stock(name.clone())) };
+                    let mut posed = poser.pose(Pose::default(), partner, time, partner.default_animation, &second.lights);
+                    if second.mirrors.light == MirrorLight::Virtual {
+                        posed.add_lights_off(partner, &partner.mirrors_in_force(&second.mirrors).0);
+                    }
+                    posed.expand_lights(sampling, second.light, second.lighting.light_sample);
+                    if posed.lights.len() > MOST_POINTS {
+                        return Err(StageError::Points(posed.lights.len()));
+                    }
+                    let camera = Camera::choose(&second, partner, &posed)?;
+                    let then = super::plan(&second, partner, &posed, camera, capabilities, gather, spare);
+                    plan = dissolve::into_another(plan, then, &settings.dissolve, settings.time);
+                    pose.partner = Some(Box::new(posed));
+                }
+                (Some(name), None) => plan.notes.push(format!("nothing dissolves here: the scene {name} is not open")),
+            }
         }
         if let Some(failure) = settings.failure {
             failures::spoil(failure, &mut plan);

@@ -48,9 +48,17 @@ pub struct FramePlan {
     /// ([`crate::failures`]).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub breaks: Option<Rule>,
+    /// A frame of the scene's partner that is drawn after this one, which then ends in a texture: the picture is made of both.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub then: Option<Box<FramePlan>>,
 }
 
 impl FramePlan {
+    /// This frame, and the one that is drawn after it.
+    pub fn pictures(&self) -> impl Iterator<Item = &Self> {
+        std::iter::successors(Some(self), |plan| plan.then.as_deref())
+    }
+
     /// No frame, with room for one like this.
     #[must_use]
     pub fn emptied(self) -> Self {

@@ -122,6 +122,8 @@ pub enum Blend {
     Add,
     /// Covers it by alpha, premultiplied.
     Over,
+    /// Fills what its alpha leaves, premultiplied.
+    Under,
     /// Multiplies it: a texture over the light that falls on it.
     Multiply,
 }

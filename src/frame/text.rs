@@ -113,6 +113,9 @@ impl Display for FramePlan {
         for note in &self.notes {
             writeln!(f, "note: {note}")?;
         }
+        if let Some(then) = &self.then {
+            writeln!(f, "then:\n{then}")?;
+        }
         Ok(())
     }
 }

@@ -18,7 +18,7 @@ use thiserror::Error;
 use super::plan::{FramePlan, Method};
 use super::state::{Blend, Compare, Cull, Depth, NearPlane, State};
 use super::stencil::{StencilFace, StencilOp, StencilState};
-use super::step::{Action, Draw, DrawSet, Part, Program, Surface, Target};
+use super::step::{Action, Draw, DrawSet, Part, Program, Step, Surface, Target};
 
 /// A rule that a plan may break on purpose, where it shows what comes of it: see
 /// [`crate::failures`]. All others hold always.
@@ -94,6 +94,8 @@ pub fn validate(plan: &FramePlan) -> Result<(), Fault> {
     }
     match plan.steps.last() {
         Some(_) if state.output_begun || state.direct => Ok(()),
+        // Kept for the frame after it, which makes the picture.
+        Some(Step { view: 0, action: Action::Keep, .. }) if plan.then.is_some() => plan.then.as_deref().map_or(Ok(()), validate),
         last => Err(Fault {
             step: plan.steps.len().saturating_sub(1),
             label: last.map(|step| step.label.clone()).unwrap_or_default(),

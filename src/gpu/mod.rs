@@ -66,6 +66,22 @@ pub struct FrameStats {
     pub gpu_ms: Option<f64>,
 }
 
+impl FrameStats {
+    /// Of two frames that make one picture.
+    fn and(self, second: Self) -> Self {
+        Self {
+            draws: self.draws + second.draws,
+            triangles: self.triangles + second.triangles,
+            volumes: self.volumes + second.volumes,
+            volume_triangles: self.volume_triangles + second.volume_triangles,
+            indices: self.indices + second.indices,
+            index_bytes: self.index_bytes + second.index_bytes,
+            cpu_ms: self.cpu_ms + second.cpu_ms,
+            gpu_ms: second.gpu_ms,
+        }
+    }
+}
+
 /// Everything made on the device for drawing.
 pub struct Renderer {
     library: Library,
@@ -73,6 +89,8 @@ pub struct Renderer {
     samplers: Samplers,
     scene: Option<SceneBuffers>,
     frame: FrameBuffers,
+    /// The same of the scene's partner.
+    partner: Option<Box<(SceneBuffers, FrameBuffers)>>,
     labels: Labels,
     lines: Lines,
     targets: Option<Targets>,
@@ -98,6 +116,7 @@ impl Renderer {
             samplers: Samplers::default(),
             scene: None,
             frame: FrameBuffers::default(),
+            partner: None,
             labels: Labels::default(),
             lines: Lines::default(),
             targets: None,
@@ -111,11 +130,14 @@ impl Renderer {
     /// A scene that does not fit the device.
     pub fn set_scene(&mut self, context: &Context, scene: &Scene) -> Result<(), GpuError> {
         let memory = context.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        let buffers = SceneBuffers::new(context, &self.pipelines.material_layout, &mut self.samplers, scene);
+        let mut upload = |scene| SceneBuffers::new(context, &self.pipelines.material_layout, &mut self.samplers, scene);
+        let buffers = upload(scene);
+        let partner = scene.partner.as_deref().map(upload).transpose();
         if let Some(error) = pollster::block_on(memory.pop()) {
             return Err(GpuError::TooLarge(format!("it is out of memory: {error}")));
         }
         self.scene = Some(buffers?);
+        self.partner = partner?.map(|buffers| Box::new((buffers, FrameBuffers::default())));
         if let Some(targets) = &mut self.targets {
             // It reads the materials of the scene before.
             targets.geometry = None;
@@ -124,12 +146,39 @@ impl Renderer {
         Ok(())
     }
 
-    /// Draws the plan into `output`, a view of `format` and the plan's size, and submits it.
-    /// `scene` is the one that was set.
+    /// Draws the plan into `output`, a view of `format` and the plan's size, and submits it; and so the plan of the scene's
+    /// partner, where one comes after it. `scene` is the one that was set.
     ///
     /// # Errors
     /// Targets that do not fit, a device that is lost.
     pub fn render(
+        &mut self,
+        context: &Context,
+        plan: &FramePlan,
+        scene: &Scene,
+        pose: &Pose,
+        output: &wgpu::TextureView,
+        format: wgpu::TextureFormat,
+    ) -> Result<FrameStats, GpuError> {
+        let first = self.render_alone(context, plan, scene, pose, output, format)?;
+        let Some(then) = &plan.then else { return Ok(first) };
+        let (Some(scene), Some(pose), Some(mut partner)) = (&scene.partner, &pose.partner, self.partner.take()) else {
+            return Err(GpuError::Device("the scene's partner was not set".into()));
+        };
+        let mut exchange = |renderer: &mut Self| {
+            if let Some(scene) = &mut renderer.scene {
+                std::mem::swap(scene, &mut partner.0);
+            }
+            std::mem::swap(&mut renderer.frame, &mut partner.1);
+        };
+        exchange(self);
+        let second = self.render_alone(context, then, scene, pose, output, format);
+        exchange(self);
+        self.partner = Some(partner);
+        Ok(first.and(second?))
+    }
+
+    fn render_alone(
         &mut self,
         context: &Context,
         plan: &FramePlan,

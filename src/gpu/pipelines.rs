@@ -498,6 +498,9 @@ fn blend(blend: Blend) -> Option<wgpu::BlendState> {
             operation: wgpu::BlendOperation::Add,
         }),
         Blend::Over => both(one_and(wgpu::BlendFactor::OneMinusSrcAlpha)),
+        Blend::Under => {
+            both(wgpu::BlendComponent { src_factor: wgpu::BlendFactor::OneMinusDstAlpha, ..one_and(wgpu::BlendFactor::One) })
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! `obscura render`: one picture. The same arguments give the same pixels every time.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::HeadlessError;
@@ -10,8 +11,8 @@ use super::save::{check_target, save_png};
 use crate::cli::{check, check_against, render_command};
 use crate::director::{self, Planner};
 use crate::gpu::{Context, GpuError, Renderer, readback};
-use crate::scene::Scene;
-use crate::settings::{Settings, Show};
+use crate::scene::{Scene, stock};
+use crate::settings::{SceneChoice, Settings, Show};
 use crate::techniques::complexity::Tally;
 
 /// Draws what `settings` say into the PNG file `out`. With `measured`, draws the last frame twice, for the
@@ -82,13 +83,20 @@ pub fn open(settings: &Settings) -> Result<Scene, HeadlessError> {
 }
 
 /// The scene with its two solids put together, where settings and scene have some ([`Scene::combined`]), as they are at the
-/// settings' time.
+/// settings' time; and with the partner that its picture dissolves into.
 #[must_use]
 pub fn put_together(settings: &Settings, scene: Scene) -> Scene {
-    match scene.combination_at(settings) {
+    let mut scene = match scene.combination_at(settings) {
         Some(combination) => scene.combined(combination),
         None => scene,
-    }
+    };
+    scene.partner = settings.dissolve.scene.as_ref().and_then(|name| {
+        let partner = stock::build(name)?.ok()?;
+        let mut others = settings.clone().of_another_scene(SceneChoice::Stock(name.clone()));
+        (others.dissolve.scene, others.time) = (None, settings.time);
+        Some(Arc::new(put_together(&others, partner)))
+    });
+    scene
 }
 
 fn lap(clock: &mut Instant) -> f64 {

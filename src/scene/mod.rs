@@ -35,6 +35,8 @@ pub use receiver::{PosedReceiver, Receiver};
 pub use slides::{BuiltInSlide, Slide};
 pub use solid::{Combination, Operands, Solid, Unfit};
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DQuat, DVec3, Vec3, Vec4};
 
 use crate::geometry::Silhouettes;
@@ -68,6 +70,8 @@ pub struct Scene {
     pub operands: Option<Operands>,
     /// What was put together ([`Scene::combined`]).
     pub solid: Option<Solid>,
+    /// Another scene, which the picture dissolves into: by itself, with its own numbers.
+    pub partner: Option<Arc<Scene>>,
     /// The surfaces that take planar shadows, as the importer found them.
     pub receivers: Vec<Receiver>,
     /// Light from everywhere and the colour behind everything.

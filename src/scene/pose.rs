@@ -28,6 +28,8 @@ pub struct Pose {
     /// One per light of the scene, and one for each of them off each mirror, where those are asked for; where lights with
     /// a size were expanded, their other points after those.
     pub lights: Vec<PosedLight>,
+    /// Of the scene's partner, where the picture dissolves into it.
+    pub partner: Option<Box<Pose>>,
 }
 
 /// A mesh's vertex data, replaced for this point in time. Same lengths as the mesh's.
@@ -162,7 +164,7 @@ impl Poser {
 
         lights.clear();
         lights.extend((0..scene.lights.len()).map(|light| place_light(scene, light, &world_from_node, edits.get(&light))));
-        Pose { time, world_from_node, deformed, world_from_object, lights }
+        Pose { time, world_from_node, deformed, world_from_object, lights, partner: None }
     }
 
     fn animate(&mut self, scene: &Scene, time: f64, choice: AnimationChoice) {

@@ -1,15 +1,17 @@
-//! Two techniques in one picture, mixed pixel by pixel.
+//! Two scenes or two techniques in one picture, mixed pixel by pixel.
 
 use serde::{Deserialize, Serialize};
 
 use super::Technique;
 
-/// A picture that dissolves into another (K section 7, figure 16): the same scene by another technique.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+/// A picture that dissolves into another (K section 7, figure 16): another scene, or the same by another technique.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Dissolve {
-    /// The technique that it dissolves into; none leaves the picture alone.
+    /// The technique that it dissolves into; none leaves that alone.
     pub into: Option<Technique>,
+    /// The stock scene that it dissolves into, seen by its first camera; none leaves that alone.
+    pub scene: Option<String>,
     /// Which pixels go first.
     pub pattern: Pattern,
     /// How many have gone: 0 none, 1 all.
@@ -20,7 +22,7 @@ pub struct Dissolve {
 
 impl Default for Dissolve {
     fn default() -> Self {
-        Self { into: None, pattern: Pattern::default(), amount: 0.5, seconds: 0.0 }
+        Self { into: None, scene: None, pattern: Pattern::default(), amount: 0.5, seconds: 0.0 }
     }
 }
 
@@ -87,7 +89,7 @@ mod tests {
     fn the_amount_goes_there_and_back_by_time() {
         let still = Dissolve { amount: 0.3, ..Dissolve::default() };
         assert_eq!([0.0, 7.5].map(|time| still.amount_at(time)), [0.3, 0.3]);
-        let moving = Dissolve { seconds: 4.0, ..still };
+        let moving = Dissolve { seconds: 4.0, ..still.clone() };
         assert_eq!([0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(|time| moving.amount_at(time)), [0.0, 0.5, 1.0, 0.5, 0.0, 0.5]);
     }
 }

@@ -5,13 +5,14 @@ use egui::Ui;
 use super::Desk;
 use super::style::{self, explain, field, slider};
 use super::technique::capital;
+use crate::scene::stock;
 use crate::settings::{Pattern, Technique};
 use crate::techniques;
 
-/// Into which technique, in which pattern, how far.
+/// Into which technique or scene, in which pattern, how far.
 pub fn dissolve(ui: &mut Ui, desk: &mut Desk<'_>) {
     let dissolve = &mut desk.settings.dissolve;
-    field(ui, "Into", "The technique that the picture dissolves into, pixel by pixel", |ui| {
+    field(ui, "Into technique", "The technique that the picture dissolves into, pixel by pixel", |ui| {
         let title = |into: Option<Technique>| into.map_or("nothing", |technique| techniques::row(technique).title);
         egui::ComboBox::from_id_salt("dissolve-into")
             .selected_text(title(dissolve.into))
@@ -22,7 +23,18 @@ pub fn dissolve(ui: &mut Ui, desk: &mut Desk<'_>) {
             })
             .response
     });
-    ui.add_enabled_ui(dissolve.into.is_some(), |ui| {
+    field(ui, "Into scene", "The stock scene that the picture dissolves into, seen by its first camera", |ui| {
+        egui::ComboBox::from_id_salt("dissolve-scene")
+            .selected_text(dissolve.scene.as_deref().unwrap_or("the same"))
+            .show_ui(ui, |ui| {
+                ui.selectable_value(&mut dissolve.scene, None, "the same");
+                for scene in stock::TABLE {
+                    ui.selectable_value(&mut dissolve.scene, Some(scene.name.into()), scene.name);
+                }
+            })
+            .response
+    });
+    ui.add_enabled_ui(dissolve.into.is_some() || dissolve.scene.is_some(), |ui| {
         ui.horizontal_wrapped(|ui| {
             style::tight(ui);
             for pattern in Pattern::ALL {

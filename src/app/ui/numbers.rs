@@ -143,12 +143,13 @@ pub fn plan(ui: &mut Ui, view: &View<'_>) {
     for note in &plan.notes {
         card(ui, |ui| explain(ui, note.as_str()));
     }
-    explain(ui, format!("{} steps, in this order:", plan.steps.len()));
-    let height = (plan.steps.len() as f32 * 42.0).min(340.0);
+    let steps: Vec<_> = plan.pictures().flat_map(|plan| &plan.steps).collect();
+    explain(ui, format!("{} steps, in this order:", steps.len()));
+    let height = (steps.len() as f32 * 42.0).min(340.0);
     egui::ScrollArea::vertical().id_salt("steps").max_height(height).min_scrolled_height(height).auto_shrink([false, true]).show(
         ui,
         |ui| {
-            for (index, step) in plan.steps.iter().enumerate() {
+            for (index, step) in steps.into_iter().enumerate() {
                 ui.horizontal_wrapped(|ui| {
                     ui.label(RichText::new(format!("{:>2}", index + 1)).monospace().color(style::WEAK));
                     ui.label(step.label.as_str());

@@ -281,7 +281,7 @@ pub(super) static TABLE: &[Figure] = &[
         instead: "one scene with and without shadows for his two scenes",
         scene: "courtyard",
         view: |settings| {
-            settings.dissolve = Dissolve { into: Some(Technique::None), pattern: Pattern::BlueNoise, amount: 0.5, seconds: 0.0 };
+            settings.dissolve = Dissolve { into: Some(Technique::None), pattern: Pattern::BlueNoise, ..Dissolve::default() };
         },
     },
     Figure {
