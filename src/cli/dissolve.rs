@@ -47,11 +47,9 @@ impl DissolveArguments {
 
 /// Says whether `dissolve` can be drawn.
 pub(super) fn check(dissolve: &Dissolve) -> Result<(), InputError> {
-    if let Some(name) = &dissolve.scene {
+    if let Some(name) = dissolve.scene.as_ref().filter(|name| stock::find(name).is_none()) {
         let known: Vec<_> = stock::TABLE.iter().map(|scene| scene.name).collect();
-        if !known.contains(&name.as_str()) {
-            return Err(InputError::Unknown { kind: "stock scene", name: name.clone(), known: known.join(", ") });
-        }
+        return Err(InputError::Unknown { kind: "stock scene", name: name.clone(), known: known.join(", ") });
     }
     within("the dissolve's amount", dissolve.amount, 1.0)?;
     at_least_zero("the dissolve's seconds", dissolve.seconds.into())

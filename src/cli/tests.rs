@@ -53,7 +53,7 @@ fn every_argument_reaches_its_setting() {
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --area-mode bits --light-sample 3 --accumulate 256 \
          --accumulation 8-bit --texturing once --shading deferred --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on --silhouettes compute \
          --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --mirror-texture 77 --mirror-light virtual --least-pixels 25 --mirror 12=on --mirror 3:1=off \
-         --dissolve parity --dissolve-scene slabs --dissolve-pattern wipe --dissolve-amount 0.25 --dissolve-seconds 3 --halo 4 --halo 5=off --halo-color 0.5,0,1 --halo-width 2.5 --csg a-minus-b --csg-a 6 --csg-b 9 \
+         --dissolve parity --dissolve-scene cubes --dissolve-pattern wipe --dissolve-amount 0.25 --dissolve-seconds 3 --halo 4 --halo 5=off --halo-color 0.5,0,1 --halo-width 2.5 --csg a-minus-b --csg-a 6 --csg-b 9 \
          --planar hybrid --hybrid planar --receiver 4=on --receiver 5:2=off \
          --light-edit 1:on=true --adapter llvm --shaders wgsl",
     );
@@ -77,7 +77,7 @@ fn every_argument_reaches_its_setting() {
         decals: DecalMode::Offset,
         dissolve: Dissolve {
             into: Some(Technique::Parity),
-            scene: Some("slabs".into()),
+            scene: Some("cubes".into()),
             pattern: Pattern::Wipe,
             amount: 0.25,
             seconds: 3.0,
@@ -450,7 +450,7 @@ fn any_settings() -> impl Strategy<Value = Settings> {
     });
     let dissolve = (
         prop::option::of(prop::sample::select(&Technique::ALL[..])),
-        prop::option::of(prop::sample::select(&["slabs", "csg"][..]).prop_map(String::from)),
+        prop::option::of(prop::sample::select(&["cubes", "csg"][..]).prop_map(String::from)),
         prop::sample::select(&Pattern::ALL[..]),
         0.0..=1.0f32,
         0.0..100.0f32,
