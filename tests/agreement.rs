@@ -8,12 +8,12 @@
 
 mod common;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use common::Stage;
 use glam::DVec3;
 use obscura::cli::render_command;
-use obscura::frame::{Case, Method, Reason};
+use obscura::frame::{Case, DrawSet, FramePlan, Method, Reason};
 use obscura::scene::{AnimationChoice, LightKind, Scene, pose, stock};
 use obscura::settings::{
     CameraChoice, Counting, Culling, LightBounds, LightEdit, MirrorMode, Overflow, SceneChoice, Settings, Show, Technique,
@@ -257,6 +257,49 @@ fn auto_and_z_fail_with_everything_culled_draw_what_z_fail_draws_without() {
 const BOUNDED_VIEWS_PER_SCENE: usize = 8;
 /// Set in the stencil where a surface lies beyond its light's depth bounds.
 const BEYOND: u8 = 0x80;
+
+const WINDOWED_VIEWS_PER_SCENE: usize = 6;
+
+/// Counting volumes only where their shadows may fall must not change a pixel, and must leave fragments out.
+#[test]
+fn within_footprints_every_exact_technique_draws_what_it_draws_without() {
+    const TECHNIQUES: [Technique; 5] =
+        [Technique::Auto, Technique::ZFail, Technique::ExactZPass, Technique::Wide, Technique::OneSided];
+    let mut stage = Stage::new();
+    let mut random = Random(20_031_107);
+    let (mut windowed, mut several, mut everywhere) = (0, 0, 0);
+    for (row, number) in stock::TABLE.iter().zip(0..) {
+        let scene = stock::build(row.name).unwrap().unwrap();
+        stage.set_scene(&scene);
+        for view in 0..WINDOWED_VIEWS_PER_SCENE {
+            let mut settings = self::view(&scene, 3, &mut random);
+            settings.technique = TECHNIQUES[(view + number) % TECHNIQUES.len()];
+            let told = || command(row.name, &settings);
+            let whole = Settings { culling: Culling { footprints: false, ..settings.culling }, ..settings.clone() };
+            for show in [Show::Shadow, Show::Final, Show::Stencil] {
+                let [found, expected] =
+                    [&settings, &whole].map(|settings| stage.shoot(&Settings { show, ..settings.clone() }, &scene));
+                let differ = found.image.pixels().zip(expected.image.pixels()).filter(|(a, b)| a != b).count();
+                assert_eq!(differ, 0, "{show:?}: {}", told());
+                let windows = |plan: &FramePlan| -> Vec<Option<[u32; 4]>> {
+                    let of_set = |set: &DrawSet| match set {
+                        DrawSet::Volumes(parts) => parts.iter().map(|part| part.window).collect(),
+                        _ => Vec::new(),
+                    };
+                    plan.draws().flat_map(|(_, draw)| of_set(&draw.set)).collect()
+                };
+                assert!(windows(&expected.plan).iter().all(Option::is_none), "{}", told());
+                let windows = windows(&found.plan);
+                windowed += windows.iter().flatten().count();
+                everywhere += windows.iter().filter(|window| window.is_none()).count();
+                several += usize::from(windows.iter().flatten().collect::<BTreeSet<_>>().len() > 1);
+            }
+        }
+    }
+    let met = format!("{windowed} parts in windows, {everywhere} everywhere; {several} frames of more than one window");
+    println!("{met}");
+    assert!(windowed > 1000 && several > 20 && everywhere > 10, "{met}");
+}
 
 /// Depth bounds must not change a pixel, whatever counts within them; and must leave pixels out, or they
 /// are worth nothing.

@@ -21,6 +21,9 @@ pub(super) struct CullingArguments {
     /// Marks the pixels whose surface lies within a light's bounds and counts only there: on or off [default: off]
     #[arg(long, value_name = "SWITCH")]
     depth_bounds: Option<String>,
+    /// Counts a volume only in the cells of the picture where its shadow may fall: on or off [default: on]
+    #[arg(long, value_name = "SWITCH")]
+    footprints: Option<String>,
 }
 
 impl CullingArguments {
@@ -34,6 +37,9 @@ impl CullingArguments {
         if let Some(name) = &self.depth_bounds {
             culling.depth_bounds = by_name("depth bounds", name, [false, true], switch)?;
         }
+        if let Some(name) = &self.footprints {
+            culling.footprints = by_name("footprints", name, [false, true], switch)?;
+        }
         Ok(())
     }
 }
@@ -44,7 +50,7 @@ fn switch(on: bool) -> &'static str {
 
 /// The options that give `culling` again.
 pub(super) fn write(culling: &Culling, line: &mut Line) {
-    let Culling { on, light_bounds, caster_scissors, depth_bounds } = *culling;
+    let Culling { on, light_bounds, caster_scissors, depth_bounds, footprints } = *culling;
     if !on {
         line.word("--no-culling");
     }
@@ -56,5 +62,8 @@ pub(super) fn write(culling: &Culling, line: &mut Line) {
     }
     if depth_bounds {
         line.option("--depth-bounds", switch(depth_bounds));
+    }
+    if !footprints {
+        line.option("--footprints", switch(footprints));
     }
 }

@@ -8,12 +8,13 @@ use super::Frame;
 use super::views::Outlook;
 use crate::frame::Piece;
 use crate::geometry::ending::ending_plane;
+use crate::geometry::pixels::{Grid, common};
 use crate::geometry::planar::reflection;
 use crate::geometry::{Aabb, Body};
 use crate::scene::{LightKind, PosedLight};
 use crate::settings::Show;
 use crate::techniques::counting::LightCount;
-use crate::techniques::culling::{Audience, Interest, common, light_rect};
+use crate::techniques::culling::{Audience, Interest, light_rect};
 use crate::techniques::surfaces::Place;
 use crate::techniques::workspace::{Casters, Reached};
 use crate::techniques::{self, Caster, counting, planar, show};
@@ -174,12 +175,14 @@ impl<'a> Frame<'a> {
     pub(super) fn ask(&self, light: usize, scissor: [u32; 4]) -> counting::Ask<'_> {
         let counting = self.settings.counting;
         let budget = self.plan.budget;
+        let windowed = self.settings.culling.on && self.settings.culling.footprints && !self.settings.culling.caster_scissors;
         let solid = if budget.beyond_mask == 0 { None } else { self.solid(light) };
         counting::Ask {
             capabilities: self.capabilities,
             light,
             scissor,
             apart: self.settings.culling.caster_scissors,
+            grid: windowed.then(|| Grid::new(self.view().picture)),
             samples: self.plan.samples,
             budget: if solid.is_some() { budget } else { budget.without_bounds() },
             solid,
@@ -197,7 +200,7 @@ impl<'a> Frame<'a> {
             (&self.outlook.stalls, self.workspace),
             view,
             interest,
-            self.settings.culling.on,
+            &self.settings.culling,
             scissor,
             view.picture,
         )

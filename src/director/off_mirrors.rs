@@ -3,6 +3,7 @@
 use super::Frame;
 use super::views::SLACK;
 use crate::frame::{Piece, Surface};
+use crate::geometry::pixels::Grid;
 use crate::geometry::planar::height;
 use crate::geometry::reach::Body;
 use crate::geometry::{Aabb, VolumeParts};
@@ -40,7 +41,7 @@ impl Frame<'_> {
         let audience = self.audience(posed, scissor);
         let within = audience.receivers_within(&self.outlook.receivers, self.view().camera.eye);
         let beam = self.caster(&audience, &within, (posed, off.instance), Piece::Primitive(off.primitive), None)?;
-        let sight = culling::Sight { dropped: None, case: None, parts: VolumeParts::ALL, rect: scissor };
+        let sight = culling::Sight { dropped: None, case: None, parts: VolumeParts::ALL, rect: scissor, cells: Grid::ALL };
         Some(Caster { sight, ..beam })
     }
 

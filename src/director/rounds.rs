@@ -6,9 +6,9 @@
 
 use super::Frame;
 use crate::frame::stencil::{BitBudget, StencilState};
+use crate::geometry::pixels::around;
 use crate::settings::AreaMode;
 use crate::techniques::counting::LightCount;
-use crate::techniques::culling::around;
 use crate::techniques::own_bits::{self, Round};
 use crate::techniques::{self, counting};
 

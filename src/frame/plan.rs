@@ -203,6 +203,9 @@ pub struct VolumePlan {
     pub parts: VolumeParts,
     /// The pixels (x, y, width, height from the top left) where it may hold a surface that matters.
     pub rect: [u32; 4],
+    /// The cells of the picture where it may do so ([`crate::geometry::pixels::Grid`]).
+    #[serde(skip)]
+    pub cells: u64,
     /// How many of this caster's volumes hold the eye, where the method needs to know.
     pub holds_eye: i32,
     /// What has sides: the caster's silhouette, or each of its polygons.
@@ -259,12 +262,18 @@ impl VolumePlan {
     /// with this volume counted, all of them: elsewhere nothing would take it away again.
     #[must_use]
     pub const fn scissor(&self, of_light: [u32; 4]) -> [u32; 4] {
-        let adds_nothing_elsewhere = match self.method {
+        if self.adds_nothing_elsewhere() { self.rect } else { of_light }
+    }
+
+    /// Whether its count is zero wherever it holds no surface, so that it need not be counted there.
+    #[must_use]
+    pub const fn adds_nothing_elsewhere(&self) -> bool {
+        let of_method = match self.method {
             Method::ZPass | Method::ZFail | Method::ZFailCompared | Method::ZFailCut => true,
             Method::ExactZPass => self.holds_eye == 0,
             _ => false,
         };
-        if self.cutout.is_none() && self.extrusion.is_none() && adds_nothing_elsewhere { self.rect } else { of_light }
+        self.cutout.is_none() && self.extrusion.is_none() && of_method
     }
 }
 

@@ -428,6 +428,17 @@ pub struct VolumePart {
     pub volume: usize,
     /// Which part of it.
     pub part: Part,
+    /// The pixels of the draw's that it is drawn in; all where there are none given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub window: Option<[u32; 4]>,
+}
+
+impl VolumePart {
+    /// A part, all of it.
+    #[must_use]
+    pub const fn whole(volume: usize, part: Part) -> Self {
+        Self { volume, part, window: None }
+    }
 }
 
 /// The parts a shadow volume is drawn in.

@@ -6,7 +6,7 @@ use std::fmt::{Display, Formatter, Result};
 use super::plan::{FramePlan, Projection};
 use super::state::DepthBias;
 use super::stencil::BitBudget;
-use super::step::{Action, Draw, DrawSet, Part, Run};
+use super::step::{Action, Draw, DrawSet, Part, Run, VolumePart};
 use crate::geometry::volume::Outline;
 use crate::settings::Accumulation;
 
@@ -156,18 +156,23 @@ fn contents(set: &DrawSet) -> String {
             format!("swollen by {:.2} pixels: surfaces {}", swollen.pixels, list.join(" "))
         }
         DrawSet::Volumes(parts) => {
-            let mut by_volume: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
-            for part in parts {
-                by_volume.entry(part.volume).or_default().push(match part.part {
-                    Part::Sides => "sides",
-                    Part::SidesTurned => "turned sides",
-                    Part::LightCapKept => "light cap",
-                    Part::LightCapTurned => "turned light cap",
-                    Part::DarkCap => "dark cap",
-                });
-            }
-            let list: Vec<_> = by_volume.iter().map(|(volume, parts)| format!("{volume} ({})", parts.join(", "))).collect();
-            format!("volumes {}", list.join(" "))
+            let of_window = |parts: &[VolumePart]| {
+                let mut by_volume: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
+                for part in parts {
+                    by_volume.entry(part.volume).or_default().push(match part.part {
+                        Part::Sides => "sides",
+                        Part::SidesTurned => "turned sides",
+                        Part::LightCapKept => "light cap",
+                        Part::LightCapTurned => "turned light cap",
+                        Part::DarkCap => "dark cap",
+                    });
+                }
+                let list: Vec<_> = by_volume.iter().map(|(volume, parts)| format!("{volume} ({})", parts.join(", "))).collect();
+                let window = parts.first().and_then(|part| part.window).map(|window| format!(" within {window:?}"));
+                format!("volumes {}{}", list.join(" "), window.unwrap_or_default())
+            };
+            let windows: Vec<_> = parts.chunk_by(|a, b| a.window == b.window).map(of_window).collect();
+            windows.join("; ")
         }
         DrawSet::Labels(labels) => {
             let list: Vec<_> = labels.iter().map(|label| format!("{:?}", label.text)).collect();

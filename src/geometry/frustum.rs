@@ -126,7 +126,12 @@ pub fn cube(center: DVec3, radius: f64) -> impl Iterator<Item = DVec4> + Clone {
 /// projected (M section 6, lines 5 and 6 of its listing).
 #[must_use]
 pub fn hull_rect(hull: impl Iterator<Item = DVec4> + Clone, clip_from_world: &DMat4, size: [u32; 2]) -> Option<[u32; 4]> {
-    let clip = hull.map(|place| *clip_from_world * place);
+    rect_of(hull.map(|place| *clip_from_world * place), size)
+}
+
+/// The same of a body whose corners are in clip space.
+#[must_use]
+pub fn rect_of(clip: impl Iterator<Item = DVec4> + Clone, size: [u32; 2]) -> Option<[u32; 4]> {
     if clip.clone().any(|place| !place.is_finite()) {
         return Some([0, 0, size[0], size[1]]);
     }
@@ -135,7 +140,7 @@ pub fn hull_rect(hull: impl Iterator<Item = DVec4> + Clone, clip_from_world: &DM
 }
 
 /// The pixels between two corners in clip space; one too many on each side.
-fn pixels(min: DVec2, max: DVec2, size: [u32; 2]) -> Option<[u32; 4]> {
+pub(super) fn pixels(min: DVec2, max: DVec2, size: [u32; 2]) -> Option<[u32; 4]> {
     if min.is_nan() || max.is_nan() {
         return Some([0, 0, size[0], size[1]]);
     }

@@ -24,6 +24,7 @@ use arrayvec::ArrayVec;
 use glam::{DAffine3, DVec3, DVec4};
 
 use super::Aabb;
+use super::footprint::Slab;
 
 /// A convex body in world space, metres; it holds nothing where it has neither places nor directions.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -41,7 +42,7 @@ pub struct Body {
 }
 
 /// Gaps smaller than this share of the coordinates are none.
-const ROUNDING: f64 = 1e-5;
+pub(super) const ROUNDING: f64 = 1e-5;
 
 /// A direction this nearly square to an axis (unit vectors' dot product) goes neither way along it.
 const SQUARE: f64 = 1e-9;
@@ -274,6 +275,20 @@ impl Body {
         places.chain(self.directions.iter().map(|direction| direction.extend(0.0)))
     }
 
+    /// Between each two of its facets that look opposite ways; none where its facets are not known.
+    #[must_use]
+    pub fn slabs(&self) -> ArrayVec<Slab, 3> {
+        let facing = |pair: &[DVec4]| pair[0].truncate() == -pair[1].truncate();
+        let pairs = self.facets.chunks_exact(2).filter(|pair| facing(pair));
+        pairs.take(3).map(|pair| (pair[0].truncate(), pair[1].w, -pair[0].w)).collect()
+    }
+
+    /// The largest of its places' coordinates, metres.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.points.iter().fold(DVec3::ZERO, |largest, point| largest.max(point.abs())).max_element()
+    }
+
     /// Whether the two may have a point in common. May say yes wrongly, and does where less than a
     /// hundred-thousandth of their coordinates lies between them; never says no wrongly.
     #[must_use]
@@ -368,7 +383,7 @@ fn box_axes(corners: &[DVec3; 8]) -> [DVec3; 3] {
 }
 
 /// Each corner where its ray from the light meets the plane; all rays run towards it.
-fn thrown(corners: &[DVec3; 8], light: DVec3, plane: DVec4) -> [DVec3; 8] {
+pub(super) fn thrown(corners: &[DVec3; 8], light: DVec3, plane: DVec4) -> [DVec3; 8] {
     let height = -(plane.truncate().dot(light) + plane.w);
     corners.map(|corner| light + (corner - light) * (height / plane.truncate().dot(corner - light)))
 }

@@ -14,6 +14,7 @@ use super::shaders::{BANDS, Vertices, entry_of};
 use super::targets::{Mean, Targets};
 use super::timing::Timing;
 use crate::frame::{Action, Clear, Draw, DrawSet, FramePlan, Program, Run, Surface, Target, View, VolumePart};
+use crate::geometry::pixels::common;
 use crate::scene::Scene;
 
 /// What a frame is drawn with and into.
@@ -370,7 +371,7 @@ impl Encode<'_> {
             DrawSet::Surfaces(surfaces) => self.record_surfaces(pass, scene, surfaces, place.view, drawn),
             DrawSet::Runs(runs) => self.record_runs(pass, scene, runs, place.view, drawn),
             DrawSet::Swollen(swollen) => self.record_swollen(pass, scene, &swollen.surfaces, place.view, drawn),
-            DrawSet::Volumes(parts) => self.record_volumes(pass, plan, (place.number, parts), drawn),
+            DrawSet::Volumes(parts) => self.record_volumes(pass, plan, (place.number, parts, draw.scissor), drawn),
             DrawSet::Enclosure(_) | DrawSet::Triangles(_) => self.record_enclosure(pass, place.number, drawn),
             DrawSet::Labels(_) => self.record_labels(pass, drawn),
             DrawSet::Strokes(_) => self.record_lines(pass, drawn),
@@ -466,14 +467,21 @@ impl Encode<'_> {
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         plan: &FramePlan,
-        (number, parts): (usize, &[VolumePart]),
+        (number, parts, scissor): (usize, &[VolumePart], [u32; 4]),
         drawn: &mut Drawn,
     ) {
         let (Some(long), Some(short)) = (self.frame.indices.buffer(), self.frame.short_indices.buffer()) else { return };
         let mut bound = None;
         let mut bound_format = None;
         let (mut merged_to, mut computed_to) = (0, 0);
+        let mut window = None;
         for (at, part) in parts.iter().enumerate() {
+            // Of a window that lies beside the draw's pixels nothing is drawn.
+            let Some([x, y, width, height]) = common(part.window.unwrap_or(scissor), scissor) else { continue };
+            if window != part.window {
+                pass.set_scissor_rect(x, y, width, height);
+                window = part.window;
+            }
             if let Some(run) = self.frame.merged.run(number, at) {
                 self.record_merged(pass, run, drawn);
                 merged_to = run.parts.end;
@@ -487,7 +495,8 @@ impl Encode<'_> {
                 let vertices = vertices_of(part);
                 // What is of the same vertices and stands next to each other among the arguments is one call.
                 let next = |(part, slot): &(&VolumePart, u32)| {
-                    self.frame.compute.slot(**part) == Some(*slot) && std::ptr::eq(vertices_of(part), vertices)
+                    let same = part.window == window && std::ptr::eq(vertices_of(part), vertices);
+                    same && self.frame.compute.slot(**part) == Some(*slot)
                 };
                 let count = 1 + parts[at + 1..].iter().zip(slot + 1..).take_while(next).count();
                 self.record_computed(pass, slot..slot + u32::try_from(count).unwrap_or(1), &vertices.volume);

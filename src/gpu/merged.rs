@@ -75,7 +75,7 @@ impl Merged {
     ) {
         let small = |part: &VolumePart| welded(part.volume).filter(|welded| welded.len() <= SMALL);
         let mut next = 0;
-        for run in parts.chunk_by(|a, b| small(a).is_some() == small(b).is_some()) {
+        for run in parts.chunk_by(|a, b| a.window == b.window && small(a).is_some() == small(b).is_some()) {
             let taken = next..next + run.len();
             next = taken.end;
             if run.len() < 2 || small(&run[0]).is_none() {
@@ -133,7 +133,7 @@ mod tests {
         let (few, many) = (vec![Vec3::X; 4], vec![Vec3::Y; SMALL + 1]);
         let mut merged = Merged::default();
         merged.clear(5);
-        let part = |volume| VolumePart { volume, part: Part::Sides };
+        let part = |volume| VolumePart::whole(volume, Part::Sides);
         let welded = |volume: usize| Some(if volume == 2 { many.as_slice() } else { few.as_slice() });
         let parts = [part(0), part(1), part(2), part(3), part(4), part(3)];
         merged.append(7, &parts, welded, |_, each| [0, 4, 7].into_iter().for_each(each));
@@ -152,7 +152,7 @@ mod tests {
         let few = [Vec3::X; 4];
         let mut merged = Merged::default();
         merged.clear(1);
-        merged.append(0, &[VolumePart { volume: 0, part: Part::Sides }], |_| Some(&few), |_, each| each(0));
+        merged.append(0, &[VolumePart::whole(0, Part::Sides)], |_| Some(&few), |_, each| each(0));
         assert!(merged.run(0, 0).is_none() && merged.vertex_data.is_empty());
     }
 }

@@ -149,7 +149,7 @@ pub fn volume_parts(context: &Context, renderer: &Renderer, plan: &FramePlan) ->
     for (_, draw) in plan.draws() {
         let DrawSet::Volumes(drawn) = &draw.set else { continue };
         for &part in drawn {
-            if parts.iter().any(|(known, _)| *known == part) {
+            if parts.iter().any(|(known, _)| (known.volume, known.part) == (part.volume, part.part)) {
                 continue;
             }
             let found = match frame.compute.slot(part) {

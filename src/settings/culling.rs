@@ -15,11 +15,14 @@ pub struct Culling {
     pub caster_scissors: bool,
     /// Counts only where the surface lies within the light's bounds ([`crate::techniques::depth_bounds`]).
     pub depth_bounds: bool,
+    /// Exact forms count a volume only in those cells of the picture where its shadow may fall
+    /// ([`crate::techniques::windows`]).
+    pub footprints: bool,
 }
 
 impl Default for Culling {
     fn default() -> Self {
-        Self { on: true, light_bounds: LightBounds::default(), caster_scissors: false, depth_bounds: false }
+        Self { on: true, light_bounds: LightBounds::default(), caster_scissors: false, depth_bounds: false, footprints: true }
     }
 }
 

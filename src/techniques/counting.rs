@@ -8,8 +8,9 @@ use std::cell::OnceCell;
 
 use glam::{DAffine3, DVec3, DVec4};
 
-use super::culling::{Sight, around};
+use super::culling::Sight;
 use super::overflow::{self, Way};
+use super::windows::{Footprint, Window, windows};
 use super::workspace::Workspace;
 use super::{Row, depth_bounds, wide};
 use crate::frame::plan::View;
@@ -22,6 +23,7 @@ use crate::geometry::eye_count::{EyeCount, holding_count, inside_solid};
 use crate::geometry::frustum::NearPyramid;
 use crate::geometry::light_in_object;
 use crate::geometry::near_rectangle::may_shadow;
+use crate::geometry::pixels::{Grid, around, common};
 use crate::geometry::{Aabb, Enclosure};
 use crate::scene::{AlphaMode, Mesh, Node, Pose, PosedLight, Scene};
 use crate::settings::{Backend, Overflow, Technique};
@@ -169,6 +171,8 @@ pub struct Ask<'a> {
     pub scissor: [u32; 4],
     /// Each volume is counted in a step of its own.
     pub apart: bool,
+    /// The cells of the picture, where volumes are counted in [`windows`].
+    pub grid: Option<Grid>,
     /// Per pixel.
     pub samples: u32,
     /// The bits there are to count in.
@@ -250,7 +254,15 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
         } else {
             count.steps.extend(between_batches(batch, base, budget, ask));
         }
-        count.steps.extend(steps(row, &members, volumes, budget, ask));
+        let footprint = |&place: &usize| {
+            let volume = &volumes[numbers[place]];
+            let windowed = is_in_it(&place) && row.exact && volume.adds_nothing_elsewhere();
+            let triangles = casters[counted[place]].mesh.indices.len() / 3;
+            windowed.then(|| Footprint::of(volume.cells, volume.scissor(ask.scissor), triangles))
+        };
+        let footprints = ask.workspace.footprints.collect((0..numbers.len()).filter_map(|place| footprint(&place)));
+        let windows = ask.grid.map(|grid| windows(&footprints, grid, ask.workspace));
+        count.steps.extend(steps(row, (&members, windows.as_deref().map_or(&[], Vec::as_slice)), volumes, budget, ask));
     }
     if row.technique != Technique::Wide && budget.is_points() && budget.count_mask != 0 {
         count.steps.push(collapse(format!("light {light}: collapse into its bit"), budget, ask));
@@ -277,6 +289,7 @@ pub(super) fn planned(row: &Row, caster: &Caster<'_>, light: usize, (method, rea
         case: caster.sight.case,
         parts: caster.sight.parts,
         rect: caster.sight.rect,
+        cells: caster.sight.cells,
         holds_eye: if method == Method::ExactZPass { caster.holds_eye().unwrap_or(0) } else { 0 },
         outline: row.outline,
         extrusion: row.extrusion,
@@ -292,8 +305,15 @@ pub(super) fn planned(row: &Row, caster: &Caster<'_>, light: usize, (method, rea
     }
 }
 
-/// The counting steps of some volumes, by their numbers.
-pub(super) fn steps(row: &Row, members: &[usize], volumes: &[VolumePlan], budget: BitBudget, ask: &Ask<'_>) -> Vec<Step> {
+/// The counting steps of some volumes, by their numbers. Those that need not be counted everywhere are in `windows`, where
+/// there are any.
+pub(super) fn steps(
+    row: &Row,
+    (members, windows): (&[usize], &[Window]),
+    volumes: &[VolumePlan],
+    budget: BitBudget,
+    ask: &Ask<'_>,
+) -> Vec<Step> {
     let mut steps = Vec::new();
     for group in row.groups.iter().copied().flatten() {
         for winding in [Winding::Ccw, Winding::Cw] {
@@ -302,16 +322,25 @@ pub(super) fn steps(row: &Row, members: &[usize], volumes: &[VolumePlan], budget
                 .map(|&index| (index, &volumes[index]))
                 .filter(|(_, volume)| volume.method == group.method && volume.winding == winding);
             let parts = counted
-                .flat_map(|(index, volume)| group.parts.iter().map(move |&part| (volume, VolumePart { volume: index, part })))
+                .flat_map(|(index, volume)| group.parts.iter().map(move |&part| (volume, VolumePart::whole(index, part))))
                 .filter(|(volume, part)| volume.turns || part.part != Part::LightCapTurned)
                 .filter(|(volume, part)| volume.shows(part.part));
-            let parts = ask.workspace.found_parts.collect(parts.map(|(_, part)| part));
+            let found = ask.workspace.found_parts.collect(parts.map(|(_, part)| part));
+            let windowed = |part: &VolumePart| !windows.is_empty() && volumes[part.volume].adds_nothing_elsewhere();
+            let everywhere = found.iter().copied().filter(|part| !windowed(part));
+            let in_windows = windows.iter().flat_map(|window| {
+                let matters = |part: &&VolumePart| windowed(part) && volumes[part.volume].cells & window.cells != 0;
+                found.iter().filter(matters).map(|part| VolumePart { window: Some(window.rect), ..*part })
+            });
+            let parts = ask.workspace.found_parts.collect(everywhere.chain(in_windows));
             let shares = |a: &VolumePart, b: &VolumePart| !ask.apart || a.volume == b.volume;
             for parts in parts.chunk_by(shares) {
                 // What is wrong somewhere is left to be wrong everywhere.
                 let of_volume =
                     |part: &VolumePart| if row.exact { volumes[part.volume].scissor(ask.scissor) } else { ask.scissor };
-                let rect = parts.iter().map(of_volume).reduce(around).unwrap_or(ask.scissor);
+                let whole = parts.iter().map(of_volume).reduce(around).unwrap_or(ask.scissor);
+                let windows = parts.iter().map(|part| part.window.unwrap_or(whole)).reduce(around);
+                let Some(rect) = common(whole, windows.unwrap_or(whole)) else { continue };
                 steps.push(group.step(ask.light, winding, rect, budget, ask.workspace.parts.collect(parts.iter().copied())));
             }
         }

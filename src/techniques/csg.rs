@@ -24,7 +24,6 @@ use std::ops::Range;
 
 use glam::DMat4;
 
-use super::culling::common;
 use super::surfaces::{Known, Place};
 use crate::frame::plan::View;
 use crate::frame::state::{Cull, Depth, NearPlane, State, Winding};
@@ -32,6 +31,7 @@ use crate::frame::stencil::{StencilState, most_layers};
 use crate::frame::{Draw, DrawSet, Look, Program, Run, Step, Surface, Target};
 use crate::geometry::frustum::screen_rect;
 use crate::geometry::layers::{Side, layers};
+use crate::geometry::pixels::common;
 use crate::scene::{Mesh, Solid};
 use crate::settings::Operation;
 

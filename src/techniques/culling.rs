@@ -32,10 +32,12 @@ use glam::{DMat4, DVec3, DVec4};
 
 use crate::frame::Reason;
 use crate::frame::plan::{Case, View};
+use crate::geometry::footprint::{Receiver, Shaft};
 use crate::geometry::frustum::{cube, hull_rect, screen_rect};
+use crate::geometry::pixels::{Grid, common};
 use crate::geometry::{Aabb, Body, VolumeParts};
 use crate::scene::{AlphaMode, LightKind, Pose, PosedLight, Scene};
-use crate::settings::{LightBounds, Show};
+use crate::settings::{Culling, LightBounds, Show};
 use crate::techniques::workspace::{Lent, Workspace};
 
 /// Where things are in one view, asked once a frame.
@@ -136,28 +138,13 @@ pub fn light_rect(
     Some(rect)
 }
 
-/// The pixels of both rectangles; `None` where there are none.
-#[must_use]
-pub fn common([ax, ay, aw, ah]: [u32; 4], [bx, by, bw, bh]: [u32; 4]) -> Option<[u32; 4]> {
-    let (x, y) = (ax.max(bx), ay.max(by));
-    let (right, bottom) = ((ax + aw).min(bx + bw), (ay + ah).min(by + bh));
-    (right > x && bottom > y).then(|| [x, y, right - x, bottom - y])
-}
-
-/// The smallest rectangle that holds both.
-#[must_use]
-pub fn around([ax, ay, aw, ah]: [u32; 4], [bx, by, bw, bh]: [u32; 4]) -> [u32; 4] {
-    let (x, y) = (ax.min(bx), ay.min(by));
-    [x, y, (ax + aw).max(bx + bw) - x, (ay + ah).max(by + bh) - y]
-}
-
 /// What one light's shadows could matter to.
 #[derive(Debug)]
 pub struct Audience<'a> {
     light: &'a PosedLight,
     stalls: &'a Stalls<'a>,
     interest: Interest,
-    culling: bool,
+    culling: Culling,
     scissor: [u32; 4],
     clip_from_world: DMat4,
     size: [u32; 2],
@@ -172,6 +159,9 @@ pub struct Audience<'a> {
     receivers: Lent<'a, usize>,
     /// Of each instance, whether it is one of them.
     receives: Lent<'a, bool>,
+    /// The same, as shadows fall on them.
+    grounds: Lent<'a, Receiver>,
+    grid: Grid,
 }
 
 /// One caster's volume before its audience.
@@ -185,6 +175,8 @@ pub struct Sight {
     pub parts: VolumeParts,
     /// The pixels where it may hold a surface that matters.
     pub rect: [u32; 4],
+    /// The cells of the picture ([`Grid`]), likewise.
+    pub cells: u64,
 }
 
 impl<'a> Audience<'a> {
@@ -196,7 +188,7 @@ impl<'a> Audience<'a> {
         (stalls, workspace): (&'a Stalls<'a>, &'a Workspace),
         view: &View,
         interest: Interest,
-        culling: bool,
+        culling: &Culling,
         scissor: [u32; 4],
         size: [u32; 2],
     ) -> Self {
@@ -221,13 +213,18 @@ impl<'a> Audience<'a> {
         let receivers = workspace.numbers.collect(stalls.by_size.iter().copied().filter(reached));
         let mut receives = workspace.flags.collect(stalls.boxes.iter().map(|_| false));
         receivers.iter().for_each(|receiver| receives[*receiver] = true);
+        let clip_from_world = camera.clip_from_world();
+        let ground = |instance: &usize| Receiver::new(&stalls.boxes[*instance], &clip_from_world, size);
+        let grounds = workspace.grounds.collect(receivers.iter().filter(|_| culling.on && culling.footprints).filter_map(ground));
         Self {
             light,
             stalls,
             interest,
-            culling,
+            culling: *culling,
             scissor,
-            clip_from_world: camera.clip_from_world(),
+            grid: Grid::new(size),
+            grounds,
+            clip_from_world,
             size,
             sky: frustum.directions_of(),
             view: frustum,
@@ -261,7 +258,8 @@ impl<'a> Audience<'a> {
         in_range: bool,
         end: Option<DVec4>,
     ) -> Sight {
-        let dropped = |reason| Sight { dropped: Some(reason), case: None, parts: VolumeParts::NONE, rect: self.scissor };
+        let dropped =
+            |reason| Sight { dropped: Some(reason), case: None, parts: VolumeParts::NONE, rect: self.scissor, cells: 0 };
         if !in_range {
             return dropped(Reason::OutOfRange);
         }
@@ -272,16 +270,17 @@ impl<'a> Audience<'a> {
             (false, false) => Case::Two,
             (false, true) => Case::Three,
         };
-        if !self.culling {
-            return Sight { dropped: None, case: Some(case), parts: VolumeParts::ALL, rect: self.scissor };
+        if !self.culling.on {
+            return Sight { dropped: None, case: Some(case), parts: VolumeParts::ALL, rect: self.scissor, cells: Grid::ALL };
         }
         if self.cone.as_ref().is_some_and(|cone| !cone.may_meet(body)) {
             return dropped(Reason::OutOfCone);
         }
         let light = DVec4::from(self.light);
+        let sooner = self.sooner(corners, end);
         // Of what is in view and receives light nothing more is asked: it shades itself.
         let volume = OnceCell::new();
-        let volume = || volume.get_or_init(|| Body::volume(corners, light, self.sooner(corners, end)));
+        let volume = || volume.get_or_init(|| Body::volume(corners, light, sooner));
         if !(in_view || self.view.may_meet(volume()) && self.stalls.in_window(volume())) {
             return dropped(Reason::OutOfView);
         }
@@ -301,7 +300,29 @@ impl<'a> Audience<'a> {
             if end.is_some() { &self.view } else { &self.sky }.may_meet(&cap)
         };
         let parts = VolumeParts { light_cap: in_view, dark_cap, ..VolumeParts::SIDES };
-        Sight { dropped: None, case: Some(case), parts, rect }
+        let cells = self.footprint(corners, sooner, rect);
+        Sight { dropped: None, case: Some(case), parts, rect, cells }
+    }
+
+    /// The cells of the picture where a volume that is drawn within `rect` may hold a surface.
+    fn footprint(&self, corners: &[DVec3; 8], end: Option<DVec4>, rect: [u32; 4]) -> u64 {
+        if !self.culling.footprints {
+            return Grid::ALL;
+        }
+        let Some(shaft) = Shaft::new(corners, self.light.into(), end, &self.clip_from_world) else { return Grid::ALL };
+        let most = self.grid.reached_by(rect);
+        let mut cells = 0;
+        for ground in &*self.grounds {
+            // Of most pairs a glance at their rectangles says that nothing new is to be had.
+            let Some(both) = common(ground.rect, rect) else { continue };
+            if self.grid.reached_by(both) & !cells == 0 {
+                continue;
+            }
+            if let Some(fallen) = shaft.falls_on(ground, self.size) {
+                cells |= self.grid.reached_by(fallen);
+            }
+        }
+        cells & most
     }
 
     /// Where the volume stops to matter: at its end, or at the light's.
@@ -330,16 +351,4 @@ impl<'a> Audience<'a> {
 fn ball_of(light: &PosedLight) -> Body {
     let (at, range) = (light.position, DVec3::splat(light.range));
     Body::boxed(&Aabb::around(at - range, at + range), &glam::DAffine3::IDENTITY)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rectangles_meet_and_join() {
-        assert_eq!(common([0, 0, 10, 10], [5, 2, 20, 3]), Some([5, 2, 5, 3]));
-        assert_eq!(common([0, 0, 10, 10], [10, 0, 5, 5]), None, "they touch");
-        assert_eq!(around([2, 3, 1, 1], [5, 0, 2, 2]), [2, 0, 5, 4]);
-    }
 }

@@ -41,6 +41,7 @@ pub mod playground;
 pub mod show;
 pub mod surfaces;
 pub mod wide;
+pub mod windows;
 pub mod workspace;
 mod z_fail;
 mod z_pass;

@@ -84,7 +84,7 @@ pub fn count(row: &Row, beam: &Caster<'_>, casters: &[Caster<'_>], ask: &Ask<'_>
     let number = volumes.len();
     volumes.push(counting::planned(&BEAM, beam, ask.light, (Method::ZFailCompared, Reason::Beam)));
     let count = counting::count_light(row, casters, &ask, volumes);
-    let mut steps = counting::steps(&BEAM, &[number], volumes, ask.budget, &ask);
+    let mut steps = counting::steps(&BEAM, (&[number], &[]), volumes, ask.budget, &ask);
     steps.extend(between_batches(0, count.base, ask.budget, &ask));
     steps.extend(count.steps);
     LightCount { base: 1, steps, budget: ask.budget, ..count }

@@ -26,11 +26,11 @@
 
 use super::Row;
 use super::counting::{Ask, LightCount, count_light, full_screen};
-use super::culling::around;
 use super::overflow::{self, Way};
 use super::workspace::Casters;
 use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{Program, Step, VolumePlan};
+use crate::geometry::pixels::around;
 use crate::settings::{Overflow, Technique};
 
 /// One point of a light with a size, and what casts shadows before it.

@@ -31,6 +31,7 @@ use crate::frame::stencil::{BitBudget, StencilOp, StencilState};
 use crate::frame::{
     Action, Draw, DrawSet, Method, Part, Piece, Program, Projection, Reason, Step, Surface, VolumePart, VolumePlan,
 };
+use crate::geometry::pixels::Grid;
 use crate::geometry::planar::height;
 use crate::geometry::planar_shadow::{Lies, LitPlane, lies};
 use crate::geometry::volume::Outline;
@@ -271,6 +272,7 @@ impl Thrower {
             case: None,
             parts: VolumeParts { light_cap: true, ..VolumeParts::NONE },
             rect: self.rect,
+            cells: Grid::ALL,
             holds_eye: 0,
             outline: Outline::Silhouette,
             extrusion: None,
@@ -363,7 +365,7 @@ pub fn shadow(stand: &Stand, light: usize, parts: Vec<VolumePart>, leaves: Leave
 /// The parts of a planar shadow: the light cap, all of it.
 #[must_use]
 pub fn parts(volume: usize) -> [VolumePart; 2] {
-    [Part::LightCapKept, Part::LightCapTurned].map(|part| VolumePart { volume, part })
+    [Part::LightCapKept, Part::LightCapTurned].map(|part| VolumePart::whole(volume, part))
 }
 
 /// A receiver's visible pixels get its value, and so do those of the decals on it.

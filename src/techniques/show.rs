@@ -20,7 +20,7 @@ pub fn volumes(plans: &[VolumePlan], light: usize, scissor: [u32; 4]) -> Vec<Ste
                     && plan.winding == winding
             })
             .flat_map(|(volume, _)| {
-                [Part::Sides, Part::LightCapKept, Part::LightCapTurned].map(|part| VolumePart { volume, part })
+                [Part::Sides, Part::LightCapKept, Part::LightCapTurned].map(|part| VolumePart::whole(volume, part))
             })
             .collect();
         if parts.is_empty() {

@@ -13,9 +13,11 @@ use std::ops::{Deref, DerefMut};
 use super::Caster;
 use super::overflow;
 use super::surfaces::Place;
+use super::windows::{Footprint, Window};
 use crate::frame::lists::{List, Lists};
 use crate::frame::{Surface, VolumePart};
 use crate::geometry::Body;
+use crate::geometry::footprint::Receiver;
 
 /// Memory for everything that planning lists.
 #[derive(Default)]
@@ -38,6 +40,12 @@ pub struct Workspace {
     pub sizes: Spares<Option<f32>>,
     /// Their boxes.
     pub boxes: Spares<Body>,
+    /// The same, as shadows fall on them.
+    pub grounds: Spares<Receiver>,
+    /// Volumes on their way into windows.
+    pub footprints: Spares<Footprint>,
+    /// Where volumes are counted.
+    pub windows: Spares<Window>,
     /// Where they are before a mirror.
     pub places: Spares<Place>,
     /// Which silhouettes the device finds.
