@@ -7,6 +7,7 @@ mod compute;
 pub mod context;
 mod cutouts;
 mod encode;
+mod encode_volumes;
 mod frame_buffers;
 mod growing;
 mod kept;
