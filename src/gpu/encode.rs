@@ -1,7 +1,5 @@
 //! Walks the plan and records it: neighbours with the same attachments share one render pass.
 
-use std::ops::Range;
-
 use super::context::Context;
 use super::frame_buffers::{FrameBuffers, STRIDE};
 use super::labels::Labels;
@@ -11,7 +9,7 @@ use super::scene_buffers::SceneBuffers;
 use super::shaders::{BANDS, Vertices, entry_of};
 use super::targets::{Mean, Targets};
 use super::timing::Timing;
-use crate::frame::{Action, Clear, Draw, DrawSet, FramePlan, Program, Run, Surface, Target, View, VolumePart};
+use crate::frame::{Action, Clear, Draw, DrawSet, FramePlan, Program, Run, Surface, Target, View};
 use crate::scene::Scene;
 
 /// What a frame is drawn with and into.
