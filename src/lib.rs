@@ -167,6 +167,10 @@
 //! for the dark cap's fan asks all of the caster's vertices, not only the silhouette's: a light in a room
 //! with a door sees a rim in one half-space and walls all round ([`geometry::volume`]).
 //!
+//! Nor need it be counted all over the picture: only in the cells where it may hold a surface
+//! ([`geometry::footprint`]), joined into windows ([`techniques::windows`]). Elsewhere its fronts and backs cancel.
+//! All parts of a volume are counted in the same windows, and windows do not overlap: a count is whole wherever it is.
+//!
 //! The shaders are specialised for what a step's materials and light have ([`frame::Look`]), because a
 //! software GPU pays for every instruction of every pixel. For the same reason light is worked out at the
 //! vertices where it changes in proportion, and the picture's format does not convert: the shaders encode
