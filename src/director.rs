@@ -8,6 +8,7 @@ mod casters;
 mod decals;
 mod deferred;
 mod diagrams;
+mod direct;
 mod dissolve;
 mod halos;
 mod off_mirrors;
@@ -370,33 +371,6 @@ impl<'a> Frame<'a> {
     fn texturing(&self) -> Texturing {
         let exact_values = matches!(self.settings.show, Show::Shadow | Show::Stencil);
         if exact_values { Texturing::EachLight } else { self.settings.lighting.texturing }
-    }
-
-    /// The frame of one light at most, with nothing blended: depth, the count, and then every surface
-    /// once, in its final colour. Nothing is accumulated, so the linear target is not used at all. Where
-    /// nothing is counted, surfaces lay depth as they are drawn.
-    fn draw_directly(&mut self, only: Option<Round>, groups: &[surfaces::SurfaceGroup]) {
-        let whole = self.whole();
-        let round = only.unwrap_or_default();
-        self.clear_all([0.0, 0.0, 0.0, 1.0], round.base);
-        let shining = round.lights.first();
-        let budget = shining.and_then(|shining| shining.budget);
-        for step in surfaces::depth(groups, budget.is_some(), whole) {
-            self.push(Step { action: step.action.onto(Target::Direct), ..step });
-        }
-        let scissor = round.counted_within().unwrap_or(whole);
-        for step in round.steps {
-            self.push(Step { action: step.action.onto(Target::Direct), ..step });
-        }
-        let reached = shining.map(|shining| self.reached(shining.light));
-        let only = shining.zip(reached.as_ref()).map(|(&Shining { light, .. }, reached)| surfaces::OnlyLight {
-            light,
-            shape: (&self.pose.lights[light]).into(),
-            reached,
-            dark: budget.map(|budget| surfaces::Dark { budget, scissor }),
-        });
-        self.extend(surfaces::finished(groups, only.as_ref(), whole));
-        self.push(show::background(whole));
     }
 
     /// What surfaces are grouped by.

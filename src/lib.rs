@@ -60,7 +60,8 @@
 //! Blended surfaces, halos ([`techniques::halo`]), overlays and the tone curve come last.
 //!
 //! A frame of one light at most, with nothing blended, goes a shorter way: the same count, but surfaces are
-//! drawn in their final colour straight into the picture. Or, where triangles are many or lights two to four, surfaces are
+//! drawn in their final colour straight into the picture: those that may be in shadow as if they were lit, to lay depth, and
+//! again where the count says so. Or, where triangles are many or lights two to four, surfaces are
 //! drawn once in all, what light needs to know of them is kept, and one step shades every pixel in the lights that left
 //! their bits after they were counted ([`techniques::deferred`]). A light with a size stands in the pose as several
 //! points, each counted as a light of its own ([`scene::area`]); and a picture may be the mean of many frames,

@@ -1,5 +1,5 @@
-//! Deferred shading against the forward form: the same stencil to the last bit, and the same picture but for a step of 255
-//! or two, which 16-bit floats make of normals and base colours.
+//! Early and deferred shading against the forward form: the same stencil to the last bit; drawn early the same picture to the
+//! last bit, too, deferred but for a step of 255 or two, which 16-bit floats make of normals and base colours.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
@@ -45,18 +45,43 @@ fn the_picture_is_the_forward_one() {
     }
 }
 
+/// One light, seen from the light and from the shadow; textures, highlights, two sides, masked surfaces.
+#[test]
+fn drawn_early_the_picture_is_the_forward_one_to_the_last_bit() {
+    for (name, eye_in_shadow) in [("cubes", false), ("shadowfun", false), ("teapots", false), ("eye-in-shadow", true)] {
+        let mut scene = stock::build(name).unwrap().unwrap();
+        scene.lights.truncate(1);
+        let mut device = Stage::new();
+        device.set_scene(&scene);
+        let forward = device.shoot(&settings(Shading::Forward), &scene);
+        let stencil = device.stencil();
+        let early = device.shoot(&settings(Shading::Early), &scene);
+        assert_eq!(device.stencil(), stencil, "{name}");
+        let differ = forward.image.pixels().zip(early.image.pixels()).filter(|(a, b)| a != b).count();
+        assert_eq!(differ, 0, "{name}: pixels differ");
+        let walks = |shot: &common::Shot| {
+            shot.plan.draws().filter(|(_, draw)| matches!(draw.set, obscura::frame::DrawSet::Surfaces(_))).count()
+        };
+        assert!(walks(&early) < walks(&forward), "{name}: {} walks over surfaces", walks(&early));
+        let first = early.plan.draws().map(|(_, draw)| draw.program).find(|program| *program != Program::DepthMasked);
+        let expected = if eye_in_shadow { Program::Ambient } else { Program::Lit };
+        assert_eq!(first, Some(expected), "{name}: the colour that most surfaces keep comes first");
+    }
+}
+
 #[test]
 fn the_stencil_is_the_forward_one() {
     let scene = stock::build("cubes").unwrap().unwrap();
     for technique in [Technique::ZPass, Technique::ZFail, Technique::ExactZPass, Technique::Auto, Technique::Wide] {
         let mut device = Stage::new();
         device.set_scene(&scene);
-        let stencils = [Shading::Forward, Shading::Deferred].map(|shading| {
+        let stencils = [Shading::Forward, Shading::Early, Shading::Deferred].map(|shading| {
             device.shoot(&Settings { technique, ..settings(shading) }, &scene);
             device.stencil()
         });
         assert!(stencils[0].iter().any(|count| *count != 0));
-        assert_eq!(stencils[0], stencils[1], "{}", technique.name());
+        assert_eq!(stencils[0], stencils[1], "early, {}", technique.name());
+        assert_eq!(stencils[0], stencils[2], "deferred, {}", technique.name());
     }
 }
 
@@ -68,6 +93,9 @@ fn auto_takes_it_where_it_pays() {
         programs(&settings(Shading::Auto), &scene).contains(&Program::Shade)
     };
     assert!(!deferred("cubes"), "75 cubes in one light");
+    let cubes = stock::build("cubes").unwrap().unwrap();
+    let [auto, early] = [Shading::Auto, Shading::Early].map(|shading| programs(&settings(shading), &cubes));
+    assert_eq!(auto, early, "they are drawn early");
     assert!(deferred("eye-in-shadow"), "two lights");
 }
 
@@ -125,5 +153,10 @@ fn what_cannot_be_deferred_says_why_and_is_drawn_forward() {
         let (_, plan) = stage(&settings, &scene, &Capabilities::complete()).unwrap();
         assert!(plan.notes.iter().any(|note| note.starts_with("no deferred shading here: ")), "{:?}", plan.notes);
         assert!(plan.draws().all(|(_, draw)| draw.program != Program::Shade));
+    }
+    let several = stock::build("courtyard").unwrap().unwrap();
+    for (scene, early) in [(&scene, true), (&several, false)] {
+        let (_, plan) = stage(&settings(Shading::Early), scene, &Capabilities::complete()).unwrap();
+        assert_eq!(plan.notes.iter().any(|note| note.starts_with("no early shading here: ")), !early);
     }
 }

@@ -30,6 +30,13 @@ impl Frame<'_> {
         };
         match (asked, refusal) {
             (Shading::Forward, _) => false,
+            (Shading::Early, _) => {
+                if !direct || lights > 1 {
+                    let why = "it is for frames of one light and 1 sample, drawn at once, with nothing blended, darkened, dissolved or glowing";
+                    self.plan.notes.push(format!("no early shading here: {why}"));
+                }
+                false
+            }
             (Shading::Auto, Some(_)) => false,
             (Shading::Auto, None) => lights > 1 || deferred::triangles(self.scene, &self.outlook.nodes, groups) >= MANY_TRIANGLES,
             (Shading::Deferred, None) => true,

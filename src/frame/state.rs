@@ -79,6 +79,8 @@ impl DepthBias {
 impl Depth {
     /// The first pass over opaque surfaces: the nearest wins and stays.
     pub const LAY: Self = Self::plain(Compare::Greater, true);
+    /// The same; of surfaces in one place the last stays, as where they are drawn again over their depth.
+    pub const LAY_LAST: Self = Self::plain(Compare::GreaterEqual, true);
     /// Surfaces drawn again: only the very fragments that laid the depth pass.
     pub const SAME_SURFACE: Self = Self::plain(Compare::Equal, false);
     /// Shadow volumes and other things that must be nearer than the surface, and leave it alone.

@@ -155,18 +155,21 @@ impl Texturing {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Shading {
-    /// The cheaper of the two, by how many triangles and lights there are.
+    /// The cheapest of the three, by how many triangles and lights there are.
     #[default]
     Auto,
     /// As the papers do: every light draws its surfaces again.
     Forward,
+    /// One light's surfaces lay depth in the colour that most may keep, and are drawn again where the count says otherwise
+    /// ([`crate::techniques::surfaces::finished_early`]).
+    Early,
     /// Surfaces are drawn once, and what light needs to know of them is kept ([`crate::techniques::deferred`]).
     Deferred,
 }
 
 impl Shading {
     /// Every one, in the order people see them.
-    pub const ALL: [Self; 3] = [Self::Auto, Self::Forward, Self::Deferred];
+    pub const ALL: [Self; 4] = [Self::Auto, Self::Forward, Self::Early, Self::Deferred];
 
     /// The name on the command line and in files.
     #[must_use]
@@ -174,6 +177,7 @@ impl Shading {
         match self {
             Self::Auto => "auto",
             Self::Forward => "forward",
+            Self::Early => "early",
             Self::Deferred => "deferred",
         }
     }
@@ -182,8 +186,9 @@ impl Shading {
     #[must_use]
     pub const fn about(self) -> &'static str {
         match self {
-            Self::Auto => "the cheaper of the two, by how many triangles and lights there are",
+            Self::Auto => "the cheapest of the three, by how many triangles and lights there are",
             Self::Forward => "every light draws the surfaces it shines on again, as the papers do",
+            Self::Early => "one light's surfaces lay depth as if all were lit, and are drawn again where they are in shadow",
             Self::Deferred => "surfaces are drawn once; depth, normal and base colour are kept, and lights draw pixels",
         }
     }

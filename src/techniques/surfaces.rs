@@ -95,43 +95,86 @@ pub fn finished(groups: &[SurfaceGroup], only: Option<&OnlyLight<'_>>, scissor: 
     let dark = only.and_then(|only| only.dark);
     for group in groups {
         let depth = if group.lays_depth_when_finished(dark.is_some()) { Depth::LAY } else { Depth::SAME_SURFACE };
-        let depth = depth.with_bias(group.bias());
-        let mut draw = |words: &str, why: &str, surfaces: &List<Surface>, lit: Option<&OnlyLight<'_>>, stencil, scissor| {
-            if surfaces.is_empty() {
-                return;
-            }
-            let look = Look { light: lit.map(|lit| lit.shape).unwrap_or_default(), finished: true, ..group.kind.look };
-            let draw = Draw {
-                program: if lit.is_some() { Program::Lit } else { Program::Ambient },
-                look,
-                target: Target::Direct,
-                state: State { depth, ..group.again(Blend::Replace, stencil) },
-                stencil_reference: 0,
-                scissor,
-                light: lit.map(|lit| lit.light),
-                constant: [0.0; 4],
-                set: DrawSet::Surfaces(surfaces.clone()),
-            };
-            steps.push(step(format!("{words}{}", group.words()), why, draw));
-        };
-        let [near, far] = match only {
-            Some(only) => [true, false].map(|near| only.reached.of(&group.surfaces, near)),
-            None => [List::default(), group.surfaces.clone()],
-        };
         if let Some(only) = only {
-            let label = |words: &str| format!("light {}: {words}", only.light);
-            let lit = dark.map_or(StencilState::IGNORE, |dark| StencilState::count_equals(dark.budget));
-            let why = "Ambient light and this one, through the tone curve, where no volume holds the surface.";
-            draw(&label("lit"), why, &near, Some(only), lit, scissor);
-            if let Some(Dark { budget, scissor }) = dark {
-                let why = "Ambient light alone, through the tone curve, where a volume holds the surface.";
-                draw(&label("shadow"), why, &near, None, StencilState::count_differs(budget), scissor);
-            }
+            let stencil = dark.map_or(StencilState::IGNORE, |dark| StencilState::count_equals(dark.budget));
+            steps.extend(in_light(group, only, depth, stencil, scissor));
+            steps.extend(dark.and_then(|dark| in_shadow(group, only, dark)));
         }
-        let why = "Ambient light alone, through the tone curve: no light reaches here.";
-        draw("ambient", why, &far, None, StencilState::IGNORE, scissor);
+        steps.extend(out_of_reach(group, only, depth, scissor));
     }
     steps
+}
+
+/// The same in two halves, before the count and after it. First every surface as if everything were lit, or in shadow
+/// where the `eye_in_shadow` says that most of what it sees may be; which lays depth, but for masked surfaces. Then again, in
+/// its other colour, what the count says is not so.
+#[must_use]
+pub fn finished_early(groups: &[SurfaceGroup], only: &OnlyLight<'_>, eye_in_shadow: bool, scissor: [u32; 4]) -> [Vec<Step>; 2] {
+    let mut halves = [Vec::new(), Vec::new()];
+    for group in groups {
+        let depth = if group.lays_depth_when_finished(false) { Depth::LAY_LAST } else { Depth::SAME_SURFACE };
+        match only.dark {
+            Some(dark) if eye_in_shadow => {
+                halves[0].extend(out_of_reach(group, None, depth, scissor));
+                let lit = StencilState::count_equals(dark.budget);
+                halves[1].extend(in_light(group, only, Depth::SAME_SURFACE, lit, scissor));
+            }
+            dark => {
+                halves[0].extend(in_light(group, only, depth, StencilState::IGNORE, scissor));
+                halves[0].extend(out_of_reach(group, Some(only), depth, scissor));
+                halves[1].extend(dark.and_then(|dark| in_shadow(group, only, dark)));
+            }
+        }
+    }
+    halves
+}
+
+/// What the light may reach of a group, in it and in ambient light.
+fn in_light(group: &SurfaceGroup, only: &OnlyLight<'_>, depth: Depth, stencil: StencilState, scissor: [u32; 4]) -> Option<Step> {
+    let why = if stencil.tests() {
+        "Ambient light and this one, through the tone curve, where no volume holds the surface."
+    } else {
+        "Ambient light and this one, through the tone curve, wherever the light reaches."
+    };
+    let label = format!("light {}: lit", only.light);
+    finish(group, (&label, why), (only.reached.of(&group.surfaces, true), Some(only)), (depth, stencil), scissor)
+}
+
+/// The same in ambient light alone, where the count says so.
+fn in_shadow(group: &SurfaceGroup, only: &OnlyLight<'_>, Dark { budget, scissor }: Dark) -> Option<Step> {
+    let why = "Ambient light alone, through the tone curve, where a volume holds the surface.";
+    let label = format!("light {}: shadow", only.light);
+    let state = (Depth::SAME_SURFACE, StencilState::count_differs(budget));
+    finish(group, (&label, why), (only.reached.of(&group.surfaces, true), None), state, scissor)
+}
+
+/// What the light does not reach of a group; all of it where there is none.
+fn out_of_reach(group: &SurfaceGroup, only: Option<&OnlyLight<'_>>, depth: Depth, scissor: [u32; 4]) -> Option<Step> {
+    let why = if only.is_some() {
+        "Ambient light alone, through the tone curve: the light does not reach here."
+    } else {
+        "Ambient light alone, through the tone curve."
+    };
+    let far = only.map_or_else(|| group.surfaces.clone(), |only| only.reached.of(&group.surfaces, false));
+    finish(group, ("ambient", why), (far, None), (depth, StencilState::IGNORE), scissor)
+}
+
+/// Some surfaces of a group in their final colour, in ambient light and perhaps another.
+fn finish(
+    group: &SurfaceGroup,
+    (label, why): (&str, &str),
+    (surfaces, lit): (List<Surface>, Option<&OnlyLight<'_>>),
+    (depth, stencil): (Depth, StencilState),
+    scissor: [u32; 4],
+) -> Option<Step> {
+    let draw = Draw {
+        look: Look { light: lit.map(|lit| lit.shape).unwrap_or_default(), finished: true, ..group.kind.look },
+        target: Target::Direct,
+        state: State { depth: depth.with_bias(group.bias()), ..group.again(Blend::Replace, stencil) },
+        light: lit.map(|lit| lit.light),
+        ..Draw::plain(if lit.is_some() { Program::Lit } else { Program::Ambient }, DrawSet::Surfaces(surfaces.clone()), scissor)
+    };
+    (!surfaces.is_empty()).then(|| step(format!("{label}{}", group.words()), why, draw))
 }
 
 /// One light over surfaces that are [`finished`] in ambient light alone: again in their final colour, with both, where
