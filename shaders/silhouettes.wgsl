@@ -43,6 +43,10 @@ struct Job {
     triangle_blocks: u32,
     edge_block: u32,
     edge_blocks: u32,
+    start: u32,             // the start cap: the dark cap of near vertices, turned
+    _pad0: u32,
+    _pad1: u32,
+    _pad2: u32,
 }
 
 const SIDES: u32 = 1u;
@@ -50,6 +54,7 @@ const LIGHT_CAP: u32 = 2u;
 const FAN: u32 = 4u;
 const DARK_TRIANGLES: u32 = 8u;
 const TO_ONE_POINT: u32 = 16u;
+const START_CAP: u32 = 32u;
 
 // Counters of a job, before those of the blocks.
 const COUNTERS: u32 = 8u;
@@ -430,7 +435,11 @@ fn write_edge(job: Job, edge: Edge, about: u32, begin: vec2u) {
     }
     if about != NONE && a != about && b != about {
         for (var copy = 0u; copy < edge.count; copy++) {
-            write_triangle(job.dark + (begin.y + copy) * 3u, vec3u(about, b, a) + v);
+            let at = (begin.y + copy) * 3u;
+            write_triangle(job.dark + at, vec3u(about, b, a) + v);
+            if (job.flags & START_CAP) != 0u {
+                write_triangle(job.start + at, vec3u(about, a, b));
+            }
         }
     }
 }
@@ -448,6 +457,9 @@ fn write_cap(job: Job, number: u32, item: u32, begin: vec2u) {
     }
     if (job.flags & DARK_TRIANGLES) != 0u {
         write_triangle(job.dark + at, select(corners.zyx, corners, counts == -1) + job.vertices);
+        if (job.flags & START_CAP) != 0u {
+            write_triangle(job.start + at, select(corners, corners.zyx, counts == -1));
+        }
     }
 }
 
@@ -485,6 +497,7 @@ fn write(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) l
 const PART_SIDES: u32 = 0u;
 const PART_KEPT: u32 = 1u;
 const PART_TURNED: u32 = 2u;
+const PART_START: u32 = 4u;
 
 @compute @workgroup_size(LANES)
 fn arguments(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
@@ -496,7 +509,7 @@ fn arguments(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
     let job = jobs[entry.x];
     let kept = counter(entry.x, KEPT_COUNT) * 3u;
     let turned = counter(entry.x, TURNED_COUNT) * 3u;
-    var first = job.dark;
+    var first = select(job.dark, job.start, entry.y == PART_START);
     var count = 0u;
     if entry.y == PART_SIDES {
         first = job.sides;

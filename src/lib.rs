@@ -172,6 +172,10 @@
 //! ([`geometry::footprint`]), joined into windows ([`techniques::windows`]). Elsewhere its fronts and backs cancel.
 //! All parts of a volume are counted in the same windows, and windows do not overlap: a count is whole wherever it is.
 //!
+//! Nor all of its length: exact forms count the pieces of it that lie about what can receive its shadow, each capped
+//! where it was cut ([`geometry::clamping`]). What lies between two planes it holds as often as the piece between them does.
+//! Which pieces depends on scene, light and eye, not on the technique: techniques that cut keep pixels equal to one another.
+//!
 //! The shaders are specialised for what a step's materials and light have ([`frame::Look`]), because a
 //! software GPU pays for every instruction of every pixel. For the same reason light is worked out at the
 //! vertices where it changes in proportion, and the picture's format does not convert: the shaders encode

@@ -10,7 +10,7 @@ use image::Rgba;
 use obscura::frame::{Camera, Case, DrawSet, Reason};
 use obscura::scene::mesh::MeshParts;
 use obscura::scene::{Mesh, Primitive, Scene};
-use obscura::settings::{LightEdit, Settings, Show, Technique};
+use obscura::settings::{Culling, LightEdit, Settings, Show, Technique};
 use obscura::techniques::cases::{BACKGROUND, Class, classes};
 
 const SIZE: [u32; 2] = [160, 90];
@@ -35,7 +35,9 @@ fn scene() -> (Scene, Settings) {
     let lamp = build.point_light(DVec3::new(20.0, 0.0, -5.0));
     build.0.lights[lamp].range = 26.0;
     let settings = seen_from(DVec3::ZERO, DVec3::new(0.0, 0.0, -10.0), SIZE);
-    (build.0, Settings { show: Show::Cases, technique: Technique::Auto, ..settings })
+    // Clamped to what receives it, the second's volume would be seen to hold nothing, and be left out.
+    let culling = Culling { clamping: false, ..settings.culling };
+    (build.0, Settings { show: Show::Cases, technique: Technique::Auto, culling, ..settings })
 }
 
 /// The class whose colour, shaded, this is; none for the background. Every other value fails.

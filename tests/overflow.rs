@@ -12,7 +12,7 @@ use obscura::frame::validate::validate;
 use obscura::frame::{Action, Capabilities, Draw, FramePlan, Program, Target};
 use obscura::gpu::readback;
 use obscura::scene::{LightKind, Scene, stock};
-use obscura::settings::{Counting, Overflow, Settings, Show, Technique};
+use obscura::settings::{Counting, Culling, Overflow, Settings, Show, Technique};
 use obscura::truth::World;
 
 const SIZE: [u32; 2] = [160, 90];
@@ -96,6 +96,8 @@ fn the_eye_in_three_hundred_volumes() {
     // Exact z-pass starts each batch at what that batch's volumes count around the eye.
     let (scene, _) = stacked(false);
     let settings = seen_from(DVec3::new(0.3, 1.2, 0.2), DVec3::new(2.5, 0.0, 1.0), SIZE);
+    // Between its pieces a volume holds no eye.
+    let settings = Settings { culling: Culling { clamping: false, ..settings.culling }, ..settings };
     let mut stage = Stage::new();
     stage.set_scene(&scene);
     for technique in [Technique::ExactZPass, Technique::ZFail] {

@@ -135,7 +135,12 @@ fn shared_structs_have_the_same_layout() {
             hand
         ]
     );
-    same_layout!("volume.wgsl", "Volume", types::Volume, [light_in_object, end_in_object, thrown, object, by_matrix, extrusion]);
+    same_layout!(
+        "volume.wgsl",
+        "Volume",
+        types::Volume,
+        [light_in_object, end_in_object, start_in_object, thrown, object, by_matrix, extrusion]
+    );
     same_layout!("volume.wgsl", "Draw", types::Draw, [constant, light, swell]);
     same_layout!(
         "silhouettes.wgsl",
@@ -166,7 +171,8 @@ fn shared_structs_have_the_same_layout() {
             triangle_block,
             triangle_blocks,
             edge_block,
-            edge_blocks
+            edge_blocks,
+            start
         ]
     );
     same_layout!("lit.wgsl", "Material", types::Material, [base_color, emissive, roughness, metallic, cutoff, unlit, number]);

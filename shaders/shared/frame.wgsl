@@ -52,6 +52,7 @@ struct Light {
 struct Volume {
     light_in_object: vec4f,     // w = 1: a point; w = 0: the direction to a directional light
     end_in_object: vec4f,       // the plane the volume ends on; (0, 0, 0, -1) at infinity
+    start_in_object: vec4f,     // the plane it starts on; (0, 0, 0, 0): it starts at its caster
     thrown: mat4x4f,            // cut-outs: takes (x y z 1) of a far vertex to where it is thrown;
                                 // ZP+: to clip space, as the light sees it through the near rectangle;
                                 // planar shadows: to clip space, thrown onto their receiver

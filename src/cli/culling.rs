@@ -24,6 +24,9 @@ pub(super) struct CullingArguments {
     /// Counts a volume only in the cells of the picture where its shadow may fall: on or off [default: on]
     #[arg(long, value_name = "SWITCH")]
     footprints: Option<String>,
+    /// Counts only the pieces of a volume about what can receive its shadow: on or off [default: on]
+    #[arg(long, value_name = "SWITCH")]
+    clamping: Option<String>,
 }
 
 impl CullingArguments {
@@ -40,6 +43,9 @@ impl CullingArguments {
         if let Some(name) = &self.footprints {
             culling.footprints = by_name("footprints", name, [false, true], switch)?;
         }
+        if let Some(name) = &self.clamping {
+            culling.clamping = by_name("clamping", name, [false, true], switch)?;
+        }
         Ok(())
     }
 }
@@ -50,7 +56,7 @@ fn switch(on: bool) -> &'static str {
 
 /// The options that give `culling` again.
 pub(super) fn write(culling: &Culling, line: &mut Line) {
-    let Culling { on, light_bounds, caster_scissors, depth_bounds, footprints } = *culling;
+    let Culling { on, light_bounds, caster_scissors, depth_bounds, footprints, clamping } = *culling;
     if !on {
         line.word("--no-culling");
     }
@@ -65,5 +71,8 @@ pub(super) fn write(culling: &Culling, line: &mut Line) {
     }
     if !footprints {
         line.option("--footprints", switch(footprints));
+    }
+    if !clamping {
+        line.option("--clamping", switch(clamping));
     }
 }

@@ -51,7 +51,7 @@ fn every_argument_reaches_its_setting() {
          --eye -1,2.5,3e2 --target 0,0,-1 --fov 33.5 --far 7.5 --time 1.25 --animation 3 --floor --exposure -1.5 \
          --no-smooth-terminator --light-edit '1:on=false,shadows=true,position=1;-2;3,color=1;0.5;0,intensity=7,range=9' \
          --light-edit 1:radius=0.5,slide=stained-glass --area-samples 16 --area-mode bits --light-sample 3 --accumulate 256 \
-         --accumulation 8-bit --texturing once --shading deferred --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on --footprints off --silhouettes compute \
+         --accumulation 8-bit --texturing once --shading deferred --labels --no-culling --light-bounds sphere --caster-scissors --depth-bounds on --footprints off --clamping off --silhouettes compute \
          --mirrors stencil --bounces 7 --last-bounce fade --fresnel on --mirror-texture 77 --mirror-light virtual --least-pixels 25 --mirror 12=on --mirror 3:1=off \
          --dissolve parity --dissolve-scene cubes --dissolve-pattern wipe --dissolve-amount 0.25 --dissolve-seconds 3 --halo 4 --halo 5=off --halo-color 0.5,0,1 --halo-width 2.5 --csg a-minus-b --csg-a 6 --csg-b 9 \
          --planar hybrid --hybrid planar --receiver 4=on --receiver 5:2=off \
@@ -112,6 +112,7 @@ fn every_argument_reaches_its_setting() {
             caster_scissors: true,
             depth_bounds: true,
             footprints: false,
+            clamping: false,
         },
         silhouettes: Backend::Compute,
         adapter: Some("llvm".into()),
@@ -418,13 +419,14 @@ fn any_settings() -> impl Strategy<Value = Settings> {
             })
         });
     let switch = any::<bool>;
-    let culling = (switch(), prop::sample::select(&LightBounds::ALL[..]), switch(), switch(), switch()).prop_map(
-        |(on, light_bounds, caster_scissors, depth_bounds, footprints)| Culling {
+    let culling = (switch(), prop::sample::select(&LightBounds::ALL[..]), switch(), switch(), switch(), switch()).prop_map(
+        |(on, light_bounds, caster_scissors, depth_bounds, footprints, clamping)| Culling {
             on,
             light_bounds,
             caster_scissors,
             depth_bounds,
             footprints,
+            clamping,
         },
     );
     let place = (any::<usize>(), any::<usize>()).prop_map(|(node, primitive)| SurfacePlace { node, primitive });

@@ -164,7 +164,7 @@ impl<'a> Frame<'a> {
             node,
             mesh,
             light,
-            sight: audience.sight((own, body), &corners, in_range, end),
+            sight: audience.sight((own, body), &corners, mesh.indices.len() / 3, in_range, end),
             end,
             receivers,
             eye_count: OnceCell::new(),

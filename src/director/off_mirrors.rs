@@ -41,7 +41,7 @@ impl Frame<'_> {
         let audience = self.audience(posed, scissor);
         let within = audience.receivers_within(&self.outlook.receivers, self.view().camera.eye);
         let beam = self.caster(&audience, &within, (posed, off.instance), Piece::Primitive(off.primitive), None)?;
-        let sight = culling::Sight { dropped: None, case: None, parts: VolumeParts::ALL, rect: scissor, cells: Grid::ALL };
+        let sight = culling::Sight { parts: VolumeParts::ALL, rect: scissor, cells: Grid::ALL, ..culling::Sight::NOTHING };
         Some(Caster { sight, ..beam })
     }
 

@@ -94,7 +94,7 @@ impl Budget {
             return Err("caster or light is farther away than a million kilometres");
         }
         let facing = mesh.topology.triangles().len() as u64 * 2;
-        let indices = most_indices(&mesh.topology, VolumeParts::ALL).iter().sum::<u64>();
+        let indices = most_indices(&mesh.topology, VolumeParts { start_cap: true, ..VolumeParts::ALL }).iter().sum::<u64>();
         // Of every light anew, though one would do: it is a bound.
         let poses = if pose.deformed[node].is_some() { posed_words(&mesh.topology) } else { 0 };
         if !self.fits || facing > self.facing || indices > self.indices || poses > self.poses {

@@ -9,7 +9,7 @@ mod rows;
 
 use std::sync::LazyLock;
 
-use crate::settings::{SceneChoice, Settings};
+use crate::settings::{Culling, SceneChoice, Settings};
 
 /// Where a figure is from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,6 +92,8 @@ impl Figure {
             smooth_terminator: base.smooth_terminator,
             adapter: base.adapter.clone(),
             shaders: base.shaders.clone(),
+            // The papers draw volumes whole.
+            culling: Culling { clamping: false, ..Culling::default() },
             ..Settings::default()
         };
         (self.view)(&mut settings);

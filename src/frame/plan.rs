@@ -214,6 +214,13 @@ pub struct VolumePlan {
     pub extrusion: Option<f64>,
     /// The plane it ends on, world space, outward normal and offset; none where it goes to infinity.
     pub end: Option<DVec4>,
+    /// The plane it starts on, where it is a piece of a clamped volume ([`crate::geometry::clamping`]) that does not start at
+    /// its caster: likewise, its normal away from the light.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start: Option<DVec4>,
+    /// Surfaces may lie beyond its end: it has a cap there.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub closed: bool,
     /// Which part of its caster throws it.
     #[serde(skip_serializing_if = "Piece::is_whole")]
     pub piece: Piece,
@@ -255,6 +262,20 @@ impl VolumePlan {
             Part::Sides | Part::SidesTurned => self.parts.sides,
             Part::LightCapKept | Part::LightCapTurned => self.parts.light_cap,
             Part::DarkCap => self.parts.dark_cap,
+            Part::StartCap | Part::EndCap => true,
+        }
+    }
+
+    /// Whether it has such a part at all: a piece of a clamped volume has caps of its own.
+    #[must_use]
+    pub const fn has(&self, part: Part) -> bool {
+        match part {
+            Part::Sides | Part::SidesTurned => true,
+            Part::LightCapKept => self.start.is_none(),
+            Part::LightCapTurned => self.start.is_none() && self.turns,
+            Part::DarkCap => !self.closed,
+            Part::StartCap => self.start.is_some(),
+            Part::EndCap => self.closed,
         }
     }
 

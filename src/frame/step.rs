@@ -454,6 +454,10 @@ pub enum Part {
     LightCapKept,
     /// Triangles turned to face the light, in the surface's vertex order nonetheless.
     LightCapTurned,
-    /// The cap at infinity.
+    /// The cap at infinity, or on the plane behind everything.
     DarkCap,
+    /// The cap that a piece of a clamped volume starts with.
+    StartCap,
+    /// The cap that it ends with, where surfaces may lie beyond.
+    EndCap,
 }

@@ -65,8 +65,12 @@ impl Display for FramePlan {
             if let Some(metres) = volume.extrusion {
                 write!(f, "; ends {metres} m from the light")?;
             }
+            if let Some(start) = volume.start {
+                write!(f, "; starts where ({}) . x = {:.3}", start.truncate(), -start.w)?;
+            }
             if let Some(end) = volume.end {
-                write!(f, "; ends where ({}) . x = {:.3}", end.truncate(), -end.w)?;
+                let cap = if volume.closed { ", with a cap" } else { "" };
+                write!(f, "; ends where ({}) . x = {:.3}{cap}", end.truncate(), -end.w)?;
             }
             if let Some(Projection { receiver, onto, cut }) = volume.projection {
                 let cut = if cut { ", cut there" } else { "" };
@@ -165,6 +169,8 @@ fn contents(set: &DrawSet) -> String {
                         Part::LightCapKept => "light cap",
                         Part::LightCapTurned => "turned light cap",
                         Part::DarkCap => "dark cap",
+                        Part::StartCap => "start cap",
+                        Part::EndCap => "end cap",
                     });
                 }
                 let list: Vec<_> = by_volume.iter().map(|(volume, parts)| format!("{volume} ({})", parts.join(", "))).collect();

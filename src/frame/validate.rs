@@ -18,7 +18,7 @@ use thiserror::Error;
 use super::plan::{FramePlan, Method};
 use super::state::{Blend, Compare, Cull, Depth, NearPlane, State};
 use super::stencil::{StencilFace, StencilOp, StencilState};
-use super::step::{Action, Draw, DrawSet, Part, Program, Step, Surface, Target};
+use super::step::{Action, Draw, DrawSet, Part, Program, Step, Surface, Target, VolumePart};
 
 /// A rule that a plan may break on purpose, where it shows what comes of it: see
 /// [`crate::failures`]. All others hold always.
@@ -295,6 +295,9 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
                 state.counted = draw.light;
             }
         }
+        if stencil.writes() {
+            check_pieces(plan, parts)?;
+        }
         for part in parts {
             let volume = plan.volumes.get(part.volume).ok_or("it draws a volume that is not planned")?;
             if volume.winding != draw.state.winding {
@@ -431,6 +434,23 @@ fn check_bounds(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(
         return Err("bounds are marked once, before volumes are counted");
     }
     state.bounded = draw.light;
+    Ok(())
+}
+
+/// A piece of a clamped volume is closed where it was cut: its sides and its caps are drawn by one step, within one window.
+fn check_pieces(plan: &FramePlan, parts: &[VolumePart]) -> Result<(), &'static str> {
+    for piece in parts.chunk_by(|a, b| a.volume == b.volume && a.window == b.window) {
+        let volume = plan.volumes.get(piece[0].volume).ok_or("it draws a volume that is not planned")?;
+        let drawn = |part: Part| piece.iter().filter(|other| other.part == part).count();
+        for cap in [Part::StartCap, Part::EndCap] {
+            if drawn(cap) != if volume.has(cap) { drawn(Part::Sides) } else { 0 } {
+                return Err("it counts a piece of a volume that is open where it was cut, or a cap that is none of its own");
+            }
+        }
+        if !volume.has(Part::LightCapKept) && drawn(Part::LightCapKept) + drawn(Part::LightCapTurned) > 0 {
+            return Err("it counts the light cap of a piece that does not start at its caster");
+        }
+    }
     Ok(())
 }
 

@@ -79,9 +79,9 @@ pub fn append_posed(posed: &Posed, words: &mut Vec<u32>) {
     words.extend(posed.welded.iter().flat_map(|vertex| vertex.to_array()).map(f32::to_bits));
 }
 
-/// The most indices that parts of a volume can have: of sides, the light cap, the dark cap.
+/// The most indices that parts of a volume can have: of sides, the light cap, the dark cap, the start cap.
 #[must_use]
-pub fn most_indices(topology: &Topology, parts: VolumeParts) -> [u64; 3] {
+pub fn most_indices(topology: &Topology, parts: VolumeParts) -> [u64; 4] {
     debug_assert_eq!(parts.outline, Outline::Silhouette, "single polygons are the CPU's");
     // Between two triangles that count from both sides stand up to two sides.
     let soup = topology.report().solid_components != topology.report().components;
@@ -89,7 +89,8 @@ pub fn most_indices(topology: &Topology, parts: VolumeParts) -> [u64; 3] {
     let edges = pairs + topology.others().incidences.len() as u64;
     let triangles = topology.triangles().len() as u64;
     let of = |wanted: bool, count: u64| if wanted { count } else { 0 };
-    [of(parts.sides, edges * 6), of(parts.light_cap, triangles * 3), of(parts.dark_cap, triangles.max(edges) * 3)]
+    let cap = triangles.max(edges) * 3;
+    [of(parts.sides, edges * 6), of(parts.light_cap, triangles * 3), of(parts.dark_cap, cap), of(parts.start_cap, cap)]
 }
 
 #[cfg(test)]

@@ -49,6 +49,8 @@ pub type Slab = (DVec3, f64, f64);
 pub struct Receiver {
     slabs: ArrayVec<Slab, 3>,
     largest: f64,
+    /// Its least and greatest corner, world space.
+    pub bounds: [DVec3; 2],
     /// The pixels that may see any of it.
     pub rect: [u32; 4],
 }
@@ -58,7 +60,7 @@ impl Receiver {
     #[must_use]
     pub fn new(boxed: &Body, clip_from_world: &DMat4, size: [u32; 2]) -> Option<Self> {
         let rect = hull_rect(boxed.hull(), clip_from_world, size)?;
-        Some(Self { slabs: boxed.slabs(), largest: boxed.largest(), rect })
+        Some(Self { slabs: boxed.slabs(), largest: boxed.largest(), bounds: boxed.bounds(), rect })
     }
 }
 

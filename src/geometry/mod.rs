@@ -2,6 +2,7 @@
 
 pub mod arena;
 pub mod bounds;
+pub mod clamping;
 pub mod clip;
 pub mod cutout;
 pub mod enclosure;

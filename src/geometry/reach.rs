@@ -289,6 +289,13 @@ impl Body {
         self.points.iter().fold(DVec3::ZERO, |largest, point| largest.max(point.abs())).max_element()
     }
 
+    /// The least and greatest of its places' coordinates, metres.
+    #[must_use]
+    pub fn bounds(&self) -> [DVec3; 2] {
+        let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        self.points.iter().fold(none, |[min, max], point| [min.min(*point), max.max(*point)])
+    }
+
     /// Whether the two may have a point in common. May say yes wrongly, and does where less than a
     /// hundred-thousandth of their coordinates lies between them; never says no wrongly.
     #[must_use]

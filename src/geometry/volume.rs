@@ -68,8 +68,10 @@ pub struct VolumeParts {
     pub sides: bool,
     /// The caster's own counted triangles.
     pub light_cap: bool,
-    /// At infinity. There is none for directional lights.
+    /// At infinity, or on the plane where it ends. There is none for directional lights.
     pub dark_cap: bool,
+    /// On the plane where a clamped volume starts.
+    pub start_cap: bool,
     /// What the sides and the dark cap follow.
     pub outline: Outline,
     /// Far ends are places of their own, for directional lights too, which then have a dark cap.
@@ -78,7 +80,8 @@ pub struct VolumeParts {
 
 impl VolumeParts {
     /// Nothing yet.
-    pub const NONE: Self = Self { sides: false, light_cap: false, dark_cap: false, outline: Outline::Silhouette, finite: false };
+    pub const NONE: Self =
+        Self { sides: false, light_cap: false, dark_cap: false, start_cap: false, outline: Outline::Silhouette, finite: false };
     /// What z-pass counts with.
     pub const SIDES: Self = Self { sides: true, ..Self::NONE };
     /// What z-fail counts with.
@@ -98,13 +101,15 @@ pub struct VolumeIndices {
     pub light_cap_turned: Range<u32>,
     /// Counter-clockwise from outside, which is infinity's side.
     pub dark_cap: Range<u32>,
+    /// Counter-clockwise from outside, which is the light's side: near vertices, that stand on the plane it starts on.
+    pub start_cap: Range<u32>,
 }
 
 impl VolumeIndices {
     /// In all parts.
     #[must_use]
     pub fn triangles(&self) -> u32 {
-        [&self.sides, &self.sides_turned, &self.light_cap_kept, &self.light_cap_turned, &self.dark_cap]
+        [&self.sides, &self.sides_turned, &self.light_cap_kept, &self.light_cap_turned, &self.dark_cap, &self.start_cap]
             .iter()
             .map(|part| part.len() as u32)
             .sum::<u32>()
@@ -265,22 +270,29 @@ impl VolumeScratch {
             indices.extend(counted(-1).flatten().map(I::of));
             ranges.light_cap_turned = since(indices);
         }
-        if dark_cap {
-            match edges.first() {
-                Some(&[pivot, _])
-                    if always_fan
-                        || parts.outline == Outline::Silhouette
-                            && within_half_space(welded, caster.bounds, light.truncate(), edges) =>
-                {
-                    let apart = edges.iter().filter(|edge| !edge.contains(&pivot));
-                    indices.extend(apart.flat_map(|&[a, b]| [pivot, b, a]).map(extruded).map(I::of));
-                }
-                _ => {
+        if dark_cap || parts.start_cap {
+            let narrow =
+                || parts.outline == Outline::Silhouette && within_half_space(welded, caster.bounds, light.truncate(), edges);
+            let pivot = edges.first().map(|[pivot, _]| *pivot).filter(|_| always_fan || narrow());
+            let apart = |pivot: u32| edges.iter().filter(move |edge| !edge.contains(&pivot));
+            if dark_cap {
+                if let Some(pivot) = pivot {
+                    indices.extend(apart(pivot).flat_map(|&[a, b]| [pivot, b, a]).map(extruded).map(I::of));
+                } else {
                     indices.extend(counted(1).flat_map(|[a, b, c]| [c, b, a]).map(extruded).map(I::of));
                     indices.extend(counted(-1).flatten().map(extruded).map(I::of));
                 }
+                ranges.dark_cap = since(indices);
             }
-            ranges.dark_cap = since(indices);
+            if parts.start_cap {
+                if let Some(pivot) = pivot {
+                    indices.extend(apart(pivot).flat_map(|&[a, b]| [pivot, a, b]).map(I::of));
+                } else {
+                    indices.extend(counted(1).flatten().map(I::of));
+                    indices.extend(counted(-1).flat_map(|[a, b, c]| [c, b, a]).map(I::of));
+                }
+                ranges.start_cap = since(indices);
+            }
         }
         ranges
     }

@@ -36,6 +36,7 @@ const LIGHT_CAP: u32 = 2;
 const FAN: u32 = 4;
 const DARK_TRIANGLES: u32 = 8;
 const TO_ONE_POINT: u32 = 16;
+const START_CAP: u32 = 32;
 
 /// Everything that silhouettes are found with on the device.
 pub struct Compute {
@@ -70,7 +71,13 @@ pub struct Compute {
 }
 
 /// The parts there are, as the shader numbers them.
-const PARTS: [Part; 4] = [Part::Sides, Part::LightCapKept, Part::LightCapTurned, Part::DarkCap];
+const PARTS: [Part; 5] = [Part::Sides, Part::LightCapKept, Part::LightCapTurned, Part::DarkCap, Part::StartCap];
+
+/// A part's number among them: what closes a piece is built as a dark cap.
+fn place_of(part: Part) -> Option<usize> {
+    let part = if part == Part::EndCap { Part::DarkCap } else { part };
+    PARTS.iter().position(|of| *of == part)
+}
 
 /// How many there are of what the shader works through.
 #[derive(Debug, Clone, Copy, Default)]
@@ -125,7 +132,7 @@ impl Compute {
     /// The draw of a part, by its number among the arguments, where its volume is found here.
     #[must_use]
     pub fn slot(&self, part: VolumePart) -> Option<u32> {
-        let place = PARTS.iter().position(|of| *of == part.part)?;
+        let place = place_of(part.part)?;
         self.slots.get(part.volume)?[place]
     }
 
@@ -159,7 +166,8 @@ impl Compute {
             let topology = &mesh.topology;
             let light = Vec4::from_array(volumes[number].light_in_object);
             let to_one_point = light.w == 0.0 && !wanted.finite;
-            let wanted = VolumeParts { dark_cap: wanted.dark_cap && !to_one_point, ..wanted };
+            // What closes a piece at its start is what closes it at its end, turned: both are built.
+            let wanted = VolumeParts { dark_cap: (wanted.dark_cap || wanted.start_cap) && !to_one_point, ..wanted };
             let fan = wanted.dark_cap && box_within_half_space(&pose.bounds(scene, node), light.truncate());
             let flags = [
                 (wanted.sides, SIDES),
@@ -167,6 +175,7 @@ impl Compute {
                 (fan, FAN),
                 (wanted.dark_cap && !fan, DARK_TRIANGLES),
                 (to_one_point, TO_ONE_POINT),
+                (wanted.start_cap, START_CAP),
             ];
             let count = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
             let (triangles, pairs, others) =
@@ -196,6 +205,7 @@ impl Compute {
                 sides: indices,
                 cap: indices + room_for[0],
                 dark: indices + room_for[0] + room_for[1],
+                start: indices + room_for[0] + room_for[1] + room_for[2],
                 triangle_count: triangles,
                 pair_count: pairs,
                 other_count: others,
@@ -296,7 +306,7 @@ impl Compute {
             let DrawSet::Volumes(parts) = &draw.set else { continue };
             for part in parts {
                 let Some(job) = self.job_of[same_shape[part.volume]] else { continue };
-                let Some(place) = PARTS.iter().position(|of| *of == part.part) else { continue };
+                let Some(place) = place_of(part.part) else { continue };
                 let slot = &mut self.slots[part.volume][place];
                 if slot.is_none() {
                     *slot = Some(self.counts.slots);

@@ -231,7 +231,8 @@ impl FrameBuffers {
                     match part.part {
                         Part::Sides | Part::SidesTurned => wanted.sides = true,
                         Part::LightCapKept | Part::LightCapTurned => wanted.light_cap = true,
-                        Part::DarkCap => wanted.dark_cap = true,
+                        Part::DarkCap | Part::EndCap => wanted.dark_cap = true,
+                        Part::StartCap => wanted.start_cap = true,
                     }
                 }
             }
@@ -258,6 +259,7 @@ impl FrameBuffers {
             scratch.volumes.push(Volume {
                 light_in_object: light.to_array(),
                 end_in_object: end_in_object(volume.end, &world_from_object).to_array(),
+                start_in_object: volume.start.map_or(Vec4::ZERO, |start| unit_in_object(start, &world_from_object)).to_array(),
                 thrown: match volume.method {
                     Method::ZPlus | Method::ZPlusMirrored => {
                         near_from_object(&plan.views[volume.view], &pose.lights[volume.light], &world_from_object)
@@ -493,7 +495,8 @@ pub fn range_of(indices: &VolumeIndices, part: Part) -> std::ops::Range<u32> {
         Part::SidesTurned => indices.sides_turned.clone(),
         Part::LightCapKept => indices.light_cap_kept.clone(),
         Part::LightCapTurned => indices.light_cap_turned.clone(),
-        Part::DarkCap => indices.dark_cap.clone(),
+        Part::DarkCap | Part::EndCap => indices.dark_cap.clone(),
+        Part::StartCap => indices.start_cap.clone(),
     }
 }
 
@@ -511,10 +514,13 @@ fn projected_from_object(volume: &VolumePlan, plan: &FramePlan, light: &PosedLig
     (clip_from_world * shadow_matrix(onto.plane, light.into()) * DMat4::from(*world_from_object)).as_mat4()
 }
 
-/// A plane of world space in object space, its normal made unit again.
+/// Where a volume ends, in object space, the normal made unit again.
 fn end_in_object(end: Option<DVec4>, world_from_object: &DAffine3) -> Vec4 {
-    let Some(end) = end else { return NEVER_ENDS.as_vec4() };
-    let plane = in_object(end, world_from_object);
+    end.map_or(NEVER_ENDS.as_vec4(), |end| unit_in_object(end, world_from_object))
+}
+
+fn unit_in_object(plane: DVec4, world_from_object: &DAffine3) -> Vec4 {
+    let plane = in_object(plane, world_from_object);
     (plane / plane.truncate().length()).as_vec4()
 }
 

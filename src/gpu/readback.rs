@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::context::{Context, GpuError};
 use super::{FrameStats, Renderer};
-use crate::frame::{DrawSet, FramePlan, VolumePart, WideCounts};
+use crate::frame::{DrawSet, FramePlan, Part, VolumePart, WideCounts};
 use crate::scene::{Pose, Scene};
 
 /// The format pictures are drawn in without a window. Like every picture's it does not convert: the shaders
@@ -185,7 +185,9 @@ pub fn add_computed(context: &Context, renderer: &Renderer, plan: &FramePlan, st
             let indices = u64::from(draws[slot as usize * 5]);
             stats.volume_triangles += indices / 3;
             stats.triangles += indices / 3;
-            if built.insert((frame.first_of_shape(part.volume), part.part)) {
+            // What closes a piece and what closes the whole are the same triangles.
+            let kind = if part.part == Part::EndCap { Part::DarkCap } else { part.part };
+            if built.insert((frame.first_of_shape(part.volume), kind)) {
                 stats.indices += indices;
                 stats.index_bytes += indices * 4;
             }

@@ -99,6 +99,8 @@ pub struct Volume {
     pub light_in_object: [f32; 4],
     /// The plane the volume ends on, in the same space.
     pub end_in_object: [f32; 4],
+    /// And the plane it starts on; all zero where it starts at its caster.
+    pub start_in_object: [f32; 4],
     /// Where a cut-out's far vertices go: homogeneous object space. For ZP+, where the light sees a
     /// vertex through the near rectangle, and for planar shadows, where it throws it: clip space.
     pub thrown: [[f32; 4]; 4],
@@ -236,4 +238,8 @@ pub struct Job {
     pub edge_block: u32,
     /// How many there are.
     pub edge_blocks: u32,
+    /// The first index of the start cap.
+    pub start: u32,
+    #[doc(hidden)]
+    pub _pad: [u32; 3],
 }

@@ -18,11 +18,20 @@ pub struct Culling {
     /// Exact forms count a volume only in those cells of the picture where its shadow may fall
     /// ([`crate::techniques::windows`]).
     pub footprints: bool,
+    /// Exact forms count only the pieces of a volume about what can receive its shadow ([`crate::geometry::clamping`]).
+    pub clamping: bool,
 }
 
 impl Default for Culling {
     fn default() -> Self {
-        Self { on: true, light_bounds: LightBounds::default(), caster_scissors: false, depth_bounds: false, footprints: true }
+        Self {
+            on: true,
+            light_bounds: LightBounds::default(),
+            caster_scissors: false,
+            depth_bounds: false,
+            footprints: true,
+            clamping: true,
+        }
     }
 }
 

@@ -19,6 +19,7 @@ use crate::frame::stencil::{BitBudget, StencilState};
 use crate::frame::{
     Capabilities, Cutout, Draw, DrawSet, List, Method, Part, Piece, Program, Reason, Step, Target, VolumePart, VolumePlan,
 };
+use crate::geometry::clamping;
 use crate::geometry::eye_count::{EyeCount, holding_count, inside_solid};
 use crate::geometry::frustum::NearPyramid;
 use crate::geometry::light_in_object;
@@ -210,17 +211,26 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
     if row.groups.is_empty() {
         return nothing();
     }
-    // Of those that are counted: the caster's number, and its volume's.
-    let [mut counted, mut numbers] = [(); 2].map(|()| ask.workspace.numbers.lend());
+    // Casters that are counted, by their numbers; volumes of theirs, by theirs; and of each volume, which caster's it is.
+    let [mut counted, mut numbers, mut places] = [(); 3].map(|()| ask.workspace.numbers.lend());
     volumes.reserve(casters.len());
     for (number, caster) in casters.iter().enumerate() {
         let decided = caster.sight.dropped.map(|reason| (Method::Dropped, reason)).or_else(|| (row.decide)(caster));
         let Some((method, reason)) = decided else { continue };
-        if method != Method::Dropped {
-            counted.push(number);
-            numbers.push(volumes.len());
+        let whole = planned(row, caster, light, (method, reason));
+        if method == Method::Dropped {
+            volumes.push(whole);
+            continue;
         }
-        volumes.push(planned(row, caster, light, (method, reason)));
+        let first = volumes.len();
+        if row.clamps(&whole) && !caster.sight.pieces.is_empty() {
+            volumes.extend(caster.sight.pieces.iter().map(|piece| clamped(&whole, piece, caster)));
+        } else {
+            volumes.push(whole);
+        }
+        places.extend((first..volumes.len()).map(|_| counted.len()));
+        numbers.extend(first..volumes.len());
+        counted.push(number);
     }
     if counted.is_empty() {
         return nothing();
@@ -239,7 +249,7 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
     let budget = if batches > 1 { ask.budget.batched() } else { ask.budget };
     let mut count = LightCount { base: 0, steps: Vec::new(), budget, notes };
     for batch in 0..batches {
-        let is_in_it = |place: &usize| batch_of.as_ref().is_none_or(|batch_of| batch_of[*place] == batch);
+        let is_in_it = |place: &usize| batch_of.as_ref().is_none_or(|batch_of| batch_of[places[*place]] == batch);
         let members = ask.workspace.numbers.collect((0..numbers.len()).filter(is_in_it).map(|place| numbers[place]));
         let base = members.iter().map(|&volume| volumes[volume].holds_eye).fold(0u8, |sum, holds_eye| {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the count is modulo the field")]
@@ -257,7 +267,7 @@ pub fn count_light(row: &Row, casters: &[Caster<'_>], ask: &Ask<'_>, volumes: &m
         let footprint = |&place: &usize| {
             let volume = &volumes[numbers[place]];
             let windowed = is_in_it(&place) && row.exact && volume.adds_nothing_elsewhere();
-            let triangles = casters[counted[place]].mesh.indices.len() / 3;
+            let triangles = casters[counted[places[place]]].mesh.indices.len() / 3;
             windowed.then(|| Footprint::of(volume.cells, volume.scissor(ask.scissor), triangles))
         };
         let footprints = ask.workspace.footprints.collect((0..numbers.len()).filter_map(|place| footprint(&place)));
@@ -294,6 +304,8 @@ pub(super) fn planned(row: &Row, caster: &Caster<'_>, light: usize, (method, rea
         outline: row.outline,
         extrusion: row.extrusion,
         end: if cutout.is_none() && row.extrusion.is_none() { caster.end } else { None },
+        start: None,
+        closed: false,
         piece: caster.piece,
         reflected: caster.reflected,
         cutout,
@@ -302,6 +314,22 @@ pub(super) fn planned(row: &Row, caster: &Caster<'_>, light: usize, (method, rea
         projection: None,
         silhouette: Backend::Cpu,
         flaw: None,
+    }
+}
+
+/// A piece of a volume that is planned as a whole.
+fn clamped(whole: &VolumePlan, piece: &clamping::Piece, caster: &Caster<'_>) -> VolumePlan {
+    let eye = caster.view.camera.eye.extend(1.0);
+    // Between its planes it holds the eye as often as the whole does, and beyond them not at all.
+    let between = piece.start.is_none_or(|start| start.dot(eye) > 0.0) && piece.end.dot(eye) < 0.0;
+    VolumePlan {
+        start: piece.start,
+        end: Some(piece.end),
+        closed: piece.closed,
+        rect: piece.drawn,
+        cells: Grid::new(caster.view.picture).reached_by(piece.matters),
+        holds_eye: if between { whole.holds_eye } else { 0 },
+        ..whole.clone()
     }
 }
 
@@ -323,8 +351,7 @@ pub(super) fn steps(
                 .filter(|(_, volume)| volume.method == group.method && volume.winding == winding);
             let parts = counted
                 .flat_map(|(index, volume)| group.parts.iter().map(move |&part| (volume, VolumePart::whole(index, part))))
-                .filter(|(volume, part)| volume.turns || part.part != Part::LightCapTurned)
-                .filter(|(volume, part)| volume.shows(part.part));
+                .filter(|(volume, part)| volume.has(part.part) && volume.shows(part.part));
             let found = ask.workspace.found_parts.collect(parts.map(|(_, part)| part));
             let windowed = |part: &VolumePart| !windows.is_empty() && volumes[part.volume].adds_nothing_elsewhere();
             let everywhere = found.iter().copied().filter(|part| !windowed(part));

@@ -28,16 +28,19 @@
 
 use std::cell::OnceCell;
 
+use arrayvec::ArrayVec;
 use glam::{DMat4, DVec3, DVec4};
 
 use crate::frame::Reason;
 use crate::frame::plan::{Case, View};
+use crate::geometry::clamping::{self, Piece, Pyramid};
 use crate::geometry::footprint::{Receiver, Shaft};
 use crate::geometry::frustum::{cube, hull_rect, screen_rect};
 use crate::geometry::pixels::{Grid, common};
 use crate::geometry::{Aabb, Body, VolumeParts};
 use crate::scene::{AlphaMode, LightKind, Pose, PosedLight, Scene};
 use crate::settings::{Culling, LightBounds, Show};
+use crate::techniques::windows::Footprint;
 use crate::techniques::workspace::{Lent, Workspace};
 
 /// Where things are in one view, asked once a frame.
@@ -162,10 +165,13 @@ pub struct Audience<'a> {
     /// The same, as shadows fall on them.
     grounds: Lent<'a, Receiver>,
     grid: Grid,
+    eye: DVec3,
+    /// Metres that a clamped volume's planes stay away from what receives its shadow.
+    margin: f64,
 }
 
 /// One caster's volume before its audience.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Sight {
     /// Why it need not be counted at all.
     pub dropped: Option<Reason>,
@@ -177,7 +183,21 @@ pub struct Sight {
     pub rect: [u32; 4],
     /// The cells of the picture ([`Grid`]), likewise.
     pub cells: u64,
+    /// The pieces it may be clamped to; none where all of it is counted.
+    pub pieces: Pieces,
 }
+
+/// The pieces of a clamped volume, nearest the light first.
+pub type Pieces = ArrayVec<Piece, { clamping::MOST }>;
+
+impl Sight {
+    /// Nothing is drawn of it, though it was not dropped.
+    pub const NOTHING: Self =
+        Self { dropped: None, case: None, parts: VolumeParts::NONE, rect: [0; 4], cells: 0, pieces: Pieces::new_const() };
+}
+
+/// Of the size of what receives shadows: far above the rounding of what is thrown onto a plane.
+const MARGIN: f64 = 3e-4;
 
 impl<'a> Audience<'a> {
     /// What `light`, whose pixels are `scissor`, can matter to in `view`, a picture of `size`. Where
@@ -215,7 +235,12 @@ impl<'a> Audience<'a> {
         receivers.iter().for_each(|receiver| receives[*receiver] = true);
         let clip_from_world = camera.clip_from_world();
         let ground = |instance: &usize| Receiver::new(&stalls.boxes[*instance], &clip_from_world, size);
-        let grounds = workspace.grounds.collect(receivers.iter().filter(|_| culling.on && culling.footprints).filter_map(ground));
+        let asked = culling.on && (culling.footprints || culling.clamping);
+        let grounds = workspace.grounds.collect(receivers.iter().filter(|_| asked).filter_map(ground));
+        let bounds = grounds.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[min, max], ground| {
+            [min.min(ground.bounds[0]), max.max(ground.bounds[1])]
+        });
+        let largest = (bounds[1] - bounds[0]).max_element().max(0.0);
         Self {
             light,
             stalls,
@@ -223,6 +248,8 @@ impl<'a> Audience<'a> {
             culling: *culling,
             scissor,
             grid: Grid::new(size),
+            eye: camera.eye,
+            margin: MARGIN * largest,
             grounds,
             clip_from_world,
             size,
@@ -249,17 +276,18 @@ impl<'a> Audience<'a> {
     }
 
     /// What of a caster's volume matters: its box `body` has the world-space `corners` (as [`Aabb::corners`] orders
-    /// them), and the volume ends on `end`. `instance` is the caster's, where it stands there itself and is not reflected.
+    /// them), and the volume ends on `end`. `instance` is the caster's, where it stands there itself and is not reflected;
+    /// it has so many `triangles`.
     #[must_use]
     pub fn sight(
         &self,
         (instance, body): (Option<usize>, &Body),
         corners: &[DVec3; 8],
+        triangles: usize,
         in_range: bool,
         end: Option<DVec4>,
     ) -> Sight {
-        let dropped =
-            |reason| Sight { dropped: Some(reason), case: None, parts: VolumeParts::NONE, rect: self.scissor, cells: 0 };
+        let dropped = |reason| Sight { dropped: Some(reason), rect: self.scissor, ..Sight::NOTHING };
         if !in_range {
             return dropped(Reason::OutOfRange);
         }
@@ -271,7 +299,8 @@ impl<'a> Audience<'a> {
             (false, true) => Case::Three,
         };
         if !self.culling.on {
-            return Sight { dropped: None, case: Some(case), parts: VolumeParts::ALL, rect: self.scissor, cells: Grid::ALL };
+            let all = (VolumeParts::ALL, self.scissor, Grid::ALL);
+            return Sight { case: Some(case), parts: all.0, rect: all.1, cells: all.2, ..Sight::NOTHING };
         }
         if self.cone.as_ref().is_some_and(|cone| !cone.may_meet(body)) {
             return dropped(Reason::OutOfCone);
@@ -300,8 +329,39 @@ impl<'a> Audience<'a> {
             if end.is_some() { &self.view } else { &self.sky }.may_meet(&cap)
         };
         let parts = VolumeParts { light_cap: in_view, dark_cap, ..VolumeParts::SIDES };
-        let cells = self.footprint(corners, sooner, rect);
-        Sight { dropped: None, case: Some(case), parts, rect, cells }
+        let mut pieces = Pieces::new();
+        if let Some(end) = end.filter(|_| self.culling.clamping) {
+            let Some(found) = self.pieces((corners, triangles), shades_itself, end) else {
+                return dropped(Reason::ReachesNothing);
+            };
+            pieces = found;
+        }
+        let cells = if pieces.is_empty() { self.footprint(corners, sooner, rect) } else { self.grid.reached_by(rect) };
+        Sight { dropped: None, case: Some(case), parts, rect, cells, pieces }
+    }
+
+    /// The pieces that a volume may be clamped to, empty where it is not worth it; `None` where it holds nothing.
+    fn pieces(&self, (corners, triangles): (&[DVec3; 8], usize), shades_itself: bool, end: DVec4) -> Option<Pieces> {
+        let Some(mut pyramid) = Pyramid::new(corners, self.light.position, end, self.margin) else { return Some(Pieces::new()) };
+        if shades_itself {
+            let own = hull_rect(corners.iter().map(|corner| corner.extend(1.0)), &self.clip_from_world, self.size);
+            pyramid.shades_itself(own.unwrap_or(self.scissor));
+        }
+        self.grounds.iter().for_each(|ground| pyramid.falls_on(ground.bounds, ground.rect));
+        let triangles = Footprint::of(0, [0; 4], triangles).triangles;
+        let mut pieces = pyramid.pieces(&self.clip_from_world, self.size, self.eye, triangles);
+        for piece in &mut pieces {
+            // Beyond the light's own pixels nothing is counted.
+            piece.drawn = common(piece.drawn, self.scissor).unwrap_or([0; 4]);
+            piece.matters = common(piece.matters, self.scissor).unwrap_or([0; 4]);
+        }
+        pieces.retain(|piece| piece.matters[2] > 0);
+        let whole = |piece: &Piece| piece.start.is_none() && !piece.closed;
+        match pieces.as_slice() {
+            [] => None,
+            [one] if whole(one) => Some(Pieces::new()),
+            _ => Some(pieces),
+        }
     }
 
     /// The cells of the picture where a volume that is drawn within `rect` may hold a surface.

@@ -41,7 +41,7 @@ pub(super) const ROW: Row = Row {
 
 pub(super) const GROUPS: &[Group] = &[Group {
     method: Method::ExactZPass,
-    parts: &[Part::Sides],
+    parts: &[Part::Sides, Part::StartCap, Part::EndCap],
     label: "count sides, exact z-pass",
     why: "Faces before the surface, under depth clamp so that the near plane cuts none off; the stencil starts at the eye's count.",
     stencil: StencilState::count_z_pass,

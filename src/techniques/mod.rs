@@ -47,7 +47,7 @@ mod z_fail;
 mod z_pass;
 mod z_plus;
 
-use crate::frame::{Method, Reason};
+use crate::frame::{Method, Part, Reason, VolumePlan};
 use crate::geometry::Outline;
 use crate::settings::{Overflow, Settings, Technique};
 
@@ -82,6 +82,15 @@ pub struct Row {
 }
 
 impl Row {
+    /// Whether a volume may be counted piece by piece: its count claims to be exact, and knows the caps of pieces.
+    #[must_use]
+    pub fn clamps(&self, volume: &VolumePlan) -> bool {
+        let mut groups = self.groups.iter().copied().flatten();
+        let with_caps = groups.any(|group| group.method == volume.method && group.parts.contains(&Part::StartCap));
+        let plain = volume.cutout.is_none() && volume.extrusion.is_none() && volume.outline == Outline::Silhouette;
+        self.exact && with_caps && plain && volume.piece.is_whole()
+    }
+
     /// Whether a count that does not overflow is the right one: of exact techniques, and of ZP+, whose
     /// cracks are another matter.
     #[must_use]

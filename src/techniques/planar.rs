@@ -277,6 +277,8 @@ impl Thrower {
             outline: Outline::Silhouette,
             extrusion: None,
             end: None,
+            start: None,
+            closed: false,
             piece: Piece::Whole,
             reflected: None,
             cutout: None,

@@ -40,7 +40,7 @@ pub(super) const ROW: Row = Row {
 pub(super) const GROUPS: &[Group] = &[
     Group {
         method: Method::ZFail,
-        parts: &[Part::Sides],
+        parts: &[Part::Sides, Part::StartCap, Part::EndCap],
         label: "count sides, z-fail",
         why: "Faces behind the surface, from infinity towards the eye.",
         stencil: StencilState::count_z_fail,
@@ -66,7 +66,7 @@ pub(super) const GROUPS: &[Group] = &[
     },
     Group {
         method: Method::ZFailCompared,
-        parts: &[Part::Sides, Part::LightCapKept],
+        parts: &[Part::Sides, Part::LightCapKept, Part::StartCap, Part::EndCap],
         label: "count sides and light caps, z-fail, compared",
         why: "The caster's surface may be missing from the depth buffer, so its light cap is compared with depth.",
         stencil: StencilState::count_z_fail,

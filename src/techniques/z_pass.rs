@@ -35,7 +35,7 @@ pub(super) const ROW: Row = Row {
 
 pub(super) const GROUPS: &[Group] = &[Group {
     method: Method::ZPass,
-    parts: &[Part::Sides],
+    parts: &[Part::Sides, Part::StartCap, Part::EndCap],
     label: "count sides, z-pass",
     why: "Faces before the surface: entering counts up, leaving counts down.",
     stencil: StencilState::count_z_pass,

@@ -20,6 +20,9 @@ pub fn culling(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
     ui.checkbox(&mut culling.footprints, "Only where shadows may fall").on_hover_text(
         "Counts a volume only in those cells of the picture where it may hold a surface: elsewhere its fronts and backs cancel",
     );
+    ui.checkbox(&mut culling.clamping, "Clamped to receivers").on_hover_text(
+        "Cuts each volume into the pieces about what can receive its shadow (Lloyd et al. 2004): between them nothing is drawn",
+    );
     let tip = "Marks in the stencil which pixels' surfaces lie within a light's bounds, and counts only there. It takes a bit of the count";
     ui.checkbox(&mut culling.depth_bounds, "Depth bounds, by the stencil").on_hover_text(tip);
     if let Some(plan) = view.plan.filter(|_| culling.depth_bounds) {
