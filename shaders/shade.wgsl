@@ -8,7 +8,7 @@
 
 @group(1) @binding(0) var kept_depth: texture_depth_2d;
 @group(1) @binding(1) var kept_surface: texture_2d<u32>;
-@group(1) @binding(2) var kept_lit: texture_2d<f32>;    // a bit for each light, where no volume holds the surface
+@group(1) @binding(2) var kept_dark: texture_2d<f32>;    // a bit for each light, where a volume holds the surface
 @group(1) @binding(3) var<storage, read> materials: array<Material>;
 
 // The kinds of the lights; the constant has their numbers.
@@ -88,7 +88,7 @@ struct Ground {
     sin_bound: f32,
     base: vec3f,
     finish: Finish,
-    lit: u32,           // a bit for each light
+    dark: u32,          // a bit for each light
 }
 
 @fragment
@@ -112,7 +112,7 @@ fn shade(screen: Screen) -> @location(0) vec4f {
         color = (select(color, ground.base * (frame.scale * exposure()), made.unlit > 0.5)) + emitted_light(made) * exposure();
     }
     if EACH {
-        ground.lit = u32(textureLoad(kept_lit, at, 0).r * 255.0 + 0.5);
+        ground.dark = u32(textureLoad(kept_dark, at, 0).r * 255.0 + 0.5);
     }
     var light = lit_by(ground, 0u, LIGHT_0, draw.constant.x, screen.place_0, screen.color_0, screen.axis_0);
     light += lit_by(ground, 1u, LIGHT_1, draw.constant.y, screen.place_1, screen.color_1, screen.axis_1);
@@ -129,7 +129,7 @@ fn lit_by(ground: Ground, place: u32, kind: u32, number: f32, at: vec4f, color: 
     let reach = Reach(at.w, -dot(to_light, axis), color.w);
     var share = vec3f(arriving(kind, reach, ground.sin_bound, ground.normal, to_light));
     if EACH {
-        share *= f32((ground.lit >> place) & 1u);
+        share *= f32(~(ground.dark >> place) & 1u);
     }
     if kind == PROJECTOR {
         share *= through_slide(lights[u32(number)], to_light, length(ground.from_eye));
@@ -142,8 +142,8 @@ fn lit_by(ground: Ground, place: u32, kind: u32, number: f32, at: vec4f, color: 
     return color.rgb * thrown * share;
 }
 
-// A light's bit, where the stencil lets it through.
+// A light's bit, where the stencil says that its shadow is.
 @fragment
-fn mark_lit() -> @location(0) vec4f {
+fn mark_dark() -> @location(0) vec4f {
     return vec4f(draw.constant.r);
 }

@@ -104,7 +104,7 @@ fn auto_takes_it_where_it_pays() {
 fn surfaces_are_drawn_once() {
     let scene = stock::build("courtyard").unwrap().unwrap();
     let (_, plan) = stage(&settings(Shading::Deferred), &scene, &Capabilities::complete()).unwrap();
-    let lights = plan.draws().filter(|(_, draw)| draw.target == Target::Lit).count();
+    let lights = plan.draws().filter(|(_, draw)| draw.program == Program::MarkDark).count();
     assert!((2..=4).contains(&lights), "{lights} lights leave bits");
     assert_eq!(plan.draws().filter(|(_, draw)| draw.program == Program::Shade).count(), 1);
     let mut walks = plan.draws().filter(|(_, draw)| matches!(draw.set, obscura::frame::DrawSet::Surfaces(_)));
@@ -126,7 +126,7 @@ fn validation_knows_what_may_be_shaded() {
     };
     let without = |unwanted: Program| fault(&|steps| steps.retain(|step| program(step) != Some(unwanted)));
     assert!(without(Program::Geometry).contains("before colour and depth"), "without the walk that keeps them there is nothing");
-    assert!(without(Program::MarkLit).contains("bits of lights that left none"));
+    assert!(without(Program::MarkDark).contains("bits of lights that left none"));
     let changed = |wanted: Program, change: &dyn Fn(&mut Draw)| {
         fault(&|steps| {
             let draws = steps.iter_mut().filter_map(|step| match &mut step.action {
@@ -136,8 +136,8 @@ fn validation_knows_what_may_be_shaded() {
             draws.for_each(|draw| change(draw));
         })
     };
-    assert!(changed(Program::MarkLit, &|draw| draw.constant[0] = 1.0 / 255.0).contains("no other light"));
-    assert!(changed(Program::MarkLit, &|draw| draw.constant[0] = 0.5 / 255.0).contains("a bit each"));
+    assert!(changed(Program::MarkDark, &|draw| draw.constant[0] = 1.0 / 255.0).contains("no other light"));
+    assert!(changed(Program::MarkDark, &|draw| draw.constant[0] = 0.5 / 255.0).contains("a bit each"));
     assert!(changed(Program::Shade, &|draw| draw.state.depth = Depth::LAY).contains("neither depth nor stencil"));
     assert!(changed(Program::Geometry, &|draw| draw.state.depth = Depth::SAME_SURFACE).contains("with their depth"));
 }

@@ -58,18 +58,20 @@ impl Frame<'_> {
         self.clear("clear".into(), why, Clear { color: None, depth: Some(0.0), stencil: Some(stencil), counts: None });
         (self.stored, self.used) = (stencil, 0);
         self.extend(deferred::geometry(groups, whole));
-        let each = lights.len() > 1;
+        let each = lights.len() > 1 && rounds.iter().flat_map(|round| &round.lights).any(|shining| shining.budget.is_some());
+        // Volumes draw no colour: with several lights they are counted where the marks go, so that it is one pass.
+        let counted = if each { Target::Dark } else { Target::Direct };
         let mut place = 0;
         let mut dark = None;
         for round in rounds {
             self.start_round(&round);
             let within = round.counted_within().unwrap_or(whole);
             for step in round.steps {
-                self.push(Step { action: step.action.onto(Target::Direct), ..step });
+                self.push(Step { action: step.action.onto(counted), ..step });
             }
-            for Shining { light, rect, budget } in round.lights {
-                if each {
-                    self.push(mark(light, place, budget, rect));
+            for Shining { light, budget, .. } in round.lights {
+                if let Some(budget) = budget.filter(|_| each) {
+                    self.push(mark(light, place, budget, within));
                 }
                 dark = budget.map(|budget| (budget, within));
                 place += 1;
@@ -89,7 +91,8 @@ impl Frame<'_> {
                 self.push(shade(&unlit, words, StencilState::count_differs(budget), within, self.scene));
             }
             None => {
-                let words = ("shade", "Ambient light and every light that left its bit, through the tone curve, pixel by pixel.");
+                let words =
+                    ("shade", "Ambient light and every light but where it left its bit, through the tone curve, pixel by pixel.");
                 self.push(shade(&shading, words, StencilState::IGNORE, whole, self.scene));
             }
         }

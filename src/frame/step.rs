@@ -143,7 +143,7 @@ pub struct Look {
 pub struct Shade {
     /// The shapes of its lights; the step's constant has their numbers.
     pub lights: [Option<LightShape>; SHADED_TOGETHER],
-    /// Each light is asked for its bit in [`Target::Lit`]; else the stencil says where they shine.
+    /// Each light is asked for its bit in [`Target::Dark`]; else the stencil says where they shine, or all shine everywhere.
     pub each: bool,
     /// Some material has more than its base colour: it is read pixel by pixel.
     pub materials: bool,
@@ -209,9 +209,9 @@ pub enum Target {
     Solid,
     /// What light needs to know of each pixel's surface, beside the scene's depth ([`crate::techniques::deferred`]).
     Geometry,
-    /// A bit of each light, set where it shines on the surface; under the scene's depth and stencil. Zero at first.
-    Lit,
-    /// The picture itself, shaded from what [`Target::Geometry`] and [`Target::Lit`] hold; the scene's stencil is only read.
+    /// A bit of each light, set where the surface is in its shadow; under the scene's depth and stencil. Zero at first.
+    Dark,
+    /// The picture itself, shaded from what [`Target::Geometry`] and [`Target::Dark`] hold; the scene's stencil is only read.
     Shaded,
 }
 
@@ -313,8 +313,8 @@ pub enum Program {
     Geometry,
     /// The same, with fragments below the alpha cutoff left out.
     GeometryMasked,
-    /// Full screen: a light's bit, the constant's red, into [`Target::Lit`].
-    MarkLit,
+    /// Full screen: a light's bit, the constant's red, into [`Target::Dark`].
+    MarkDark,
     /// Full screen, before infinity: some lights, ambient and emitted light on what [`Target::Geometry`] holds.
     Shade,
 }

@@ -200,10 +200,10 @@ fn check_draw(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Result<(),
             }
             return Ok(());
         }
-        Target::Scene | Target::Direct | Target::Counts | Target::Geometry | Target::Lit | Target::Shaded if state.gathered => {
+        Target::Scene | Target::Direct | Target::Counts | Target::Geometry | Target::Dark | Target::Shaded if state.gathered => {
             return Err("it draws the scene after the frame joined the mean");
         }
-        Target::Geometry | Target::Lit | Target::Shaded => deferred::check(plan, draw, state)?,
+        Target::Geometry | Target::Dark | Target::Shaded => deferred::check(plan, draw, state)?,
         Target::Direct if plan.samples != 1 => return Err("the picture has one sample a pixel"),
         Target::Direct => state.direct = true,
         Target::Scene if state.output_begun || state.direct => return Err("it draws the scene after the picture has begun"),

@@ -75,8 +75,8 @@ pub const MEAN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 /// targets that it must convert to.
 pub const GEOMETRY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 
-/// A bit of each light that shines on a pixel: sums of different powers of two, 255ths of one, are exact.
-pub const LIT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+/// A bit of each light whose shadow a pixel is in: sums of different powers of two, 255ths of one, are exact.
+pub const DARK_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
 /// Depth and stencil of the scene. Floats where the device has them: reverse-Z puts the far end near
 /// zero, where 24 fixed bits are coarse and surfaces a hair from a volume's face fall on its wrong side

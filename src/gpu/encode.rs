@@ -133,7 +133,7 @@ fn passes(plan: &FramePlan) -> Vec<Pass<'_>> {
                 // The mean's and the picture's own passes clear nothing of the scene's, and the counts' no
                 // colour.
                 let elsewhere = match draw.target {
-                    Target::Scene | Target::Direct | Target::Geometry | Target::Lit | Target::Shaded => false,
+                    Target::Scene | Target::Direct | Target::Geometry | Target::Dark | Target::Shaded => false,
                     Target::Mean | Target::Output | Target::Solid => true,
                     Target::Counts => pending.is_some_and(|clear| clear.color.is_some()),
                 };
@@ -222,10 +222,10 @@ impl Encode<'_> {
                 timestamp_writes,
                 ..Default::default()
             }),
-            Target::Lit => encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("lit"),
+            Target::Dark => encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("shadows"),
                 color_attachments: &[self.targets.geometry.as_ref().map(|kept| wgpu::RenderPassColorAttachment {
-                    view: &kept.lit,
+                    view: &kept.dark,
                     depth_slice: None,
                     resolve_target: None,
                     ops: wgpu::Operations { load: load(pass.first.then_some(wgpu::Color::TRANSPARENT)), store },

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::context::{Context, GEOMETRY_FORMAT, GpuError, LIT_FORMAT, MEAN_FORMAT, color_format};
+use super::context::{Context, DARK_FORMAT, GEOMETRY_FORMAT, GpuError, MEAN_FORMAT, color_format};
 use super::shaders::{BANDS, Library, Override, Vertices, entry_of};
 use super::types::{Attributes, Draw, Frame, LabelVertex, Light, LineVertex, Material, Object, Volume};
 use crate::frame::state::{Blend, Compare, Cull, DepthBias, NearPlane, State, Winding};
@@ -340,7 +340,7 @@ impl Pipelines {
             Target::Direct | Target::Shaded | Target::Output => &[key.output],
             Target::Counts => &[context.counts_format()],
             Target::Geometry => &[GEOMETRY_FORMAT],
-            Target::Lit => &[LIT_FORMAT],
+            Target::Dark => &[DARK_FORMAT],
         };
         let color_target = |format: &wgpu::TextureFormat| {
             Some(wgpu::ColorTargetState {

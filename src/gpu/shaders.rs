@@ -214,7 +214,7 @@ pub const PROGRAMS: &[Entry] = &[
     entry(Program::VolumeFill, "volume.wgsl", "volume_vertex", "projected", Vertices::Volume, &[]),
     entry(Program::Geometry, "geometry.wgsl", "geometry_vertex", "geometry", Vertices::Surface, SURFACE),
     entry(Program::GeometryMasked, "geometry.wgsl", "geometry_vertex", "geometry_masked", Vertices::Surface, SURFACE),
-    entry(Program::MarkLit, "shade.wgsl", "full_screen_vertex", "mark_lit", Vertices::None, &[]),
+    entry(Program::MarkDark, "shade.wgsl", "full_screen_vertex", "mark_dark", Vertices::None, &[]),
     entry(Program::Shade, "shade.wgsl", "shade_vertex", "shade", Vertices::None, SHADE),
 ];
 

@@ -1,6 +1,6 @@
 //! What the scene is drawn into: made in one place, for a size and sample count.
 
-use super::context::{Context, GEOMETRY_FORMAT, GpuError, LIT_FORMAT, MEAN_FORMAT, color_format};
+use super::context::{Context, DARK_FORMAT, GEOMETRY_FORMAT, GpuError, MEAN_FORMAT, color_format};
 use crate::frame::FramePlan;
 use crate::settings::Accumulation;
 
@@ -85,12 +85,12 @@ pub struct Counts {
     pub read: wgpu::BindGroup,
 }
 
-/// What is kept of the surfaces that pixels show, and which lights shine on them.
+/// What is kept of the surfaces that pixels show, and in which lights' shadows they are.
 pub struct Geometry {
     /// What surfaces are drawn to.
     pub surface: wgpu::TextureView,
     /// The lights' bits.
-    pub lit: wgpu::TextureView,
+    pub dark: wgpu::TextureView,
     /// What pixels are shaded by.
     pub read: wgpu::BindGroup,
 }
@@ -248,7 +248,7 @@ impl Targets {
         }
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
         let make = |label, format| texture(context, label, self.shape.size, 1, format, usage).create_view(&Default::default());
-        let (surface, lit) = (make("surfaces", GEOMETRY_FORMAT), make("lit", LIT_FORMAT));
+        let (surface, dark) = (make("surfaces", GEOMETRY_FORMAT), make("dark", DARK_FORMAT));
         let depth = self
             .depth_stencil_texture
             .create_view(&wgpu::TextureViewDescriptor { aspect: wgpu::TextureAspect::DepthOnly, ..Default::default() });
@@ -259,11 +259,11 @@ impl Targets {
             entries: &[
                 entry(0, &depth),
                 entry(1, &surface),
-                entry(2, &lit),
+                entry(2, &dark),
                 wgpu::BindGroupEntry { binding: 3, resource: materials.as_entire_binding() },
             ],
         });
-        self.geometry = Some(Geometry { surface, lit, read });
+        self.geometry = Some(Geometry { surface, dark, read });
     }
 
     /// Makes the counts' target where it is not there yet; `layouts` are those of one sample and of

@@ -7,8 +7,8 @@
 //!
 //! - one light in two full-screen steps, that ask the stencil as the forward form does: both lights where the count is zero,
 //!   ambient light where it is not;
-//! - up to four lights are counted one after the other, each leaves a bit of its own where it shines
-//!   ([`Target::Lit`]), and one step shades them all, so that nothing is accumulated.
+//! - up to four lights are counted one after the other, each leaves a bit of its own where its
+//!   shadow is ([`Target::Dark`]), and one step shades them all, so that nothing is accumulated.
 //!
 //! The stencil, and what is lit and what is dark, are the forward form's very own. Colours may differ by a step or two of
 //! 255: normals and base colours are kept in 16-bit floats.
@@ -67,21 +67,17 @@ pub fn geometry(groups: &[SurfaceGroup], scissor: [u32; 4]) -> Vec<Step> {
     groups.iter().map(of_group).collect()
 }
 
-/// The bit of a light, the `place`th of those that are shaded together, where it shines.
+/// The bit of a light, the `place`th of those that are shaded together, where its shadow is; it is nowhere beyond the scissor.
 #[must_use]
-pub fn mark(light: usize, place: usize, budget: Option<BitBudget>, scissor: [u32; 4]) -> Step {
+pub fn mark(light: usize, place: usize, budget: BitBudget, scissor: [u32; 4]) -> Step {
     let draw = Draw {
-        target: Target::Lit,
-        state: State {
-            color: Some(Blend::Add),
-            stencil: budget.map_or(StencilState::IGNORE, StencilState::count_equals),
-            ..State::FLAT
-        },
+        target: Target::Dark,
+        state: State { color: Some(Blend::Add), stencil: StencilState::count_differs(budget), ..State::FLAT },
         light: Some(light),
         constant: [f32::from(1u8 << place) / 255.0, 0.0, 0.0, 0.0],
-        ..Draw::plain(Program::MarkLit, DrawSet::FullScreen, scissor)
+        ..Draw::plain(Program::MarkDark, DrawSet::FullScreen, scissor)
     };
-    let why = "Leaves the light's bit where no volume holds the surface: all lights are shaded together in the end.";
+    let why = "Leaves the light's bit where a volume holds the surface: all lights are shaded together in the end.";
     step(format!("light {light}: mark"), why, draw)
 }
 
@@ -92,7 +88,7 @@ pub struct Shading<'a> {
     pub groups: &'a [SurfaceGroup],
     /// Indices into the pose's lights, and their shapes.
     pub lights: &'a [(usize, LightShape)],
-    /// Each light has left its bit; else the stencil says where they shine.
+    /// Each light that casts shadows has left its bit; else the stencil says where they shine, or all shine everywhere.
     pub each: bool,
 }
 

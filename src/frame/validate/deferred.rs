@@ -24,13 +24,16 @@ pub(super) fn check(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Resu
             state.color_set = true;
             state.geometry = Some(0);
         }
-        Target::Lit => {
+        Target::Dark => {
             let bit = draw.constant[0] * 255.0;
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is asked whether it is one")]
             let whole = bit.round() as u8;
             let marked = state.geometry.ok_or("it marks surfaces that were not kept")?;
-            if draw.program != Program::MarkLit || writes_stencil || (bit - f32::from(whole)).abs() > 1e-3 {
-                return Err("lights leave a bit each where they shine, and nothing else");
+            if draw.program != Program::MarkDark && draw.state.color.is_none() {
+                return Ok(());
+            }
+            if draw.program != Program::MarkDark || writes_stencil || (bit - f32::from(whole)).abs() > 1e-3 {
+                return Err("lights leave a bit each where their shadow is, and nothing else");
             }
             if !whole.is_power_of_two() || marked & whole != 0 {
                 return Err("a light's bit is one that no other light has left");
@@ -43,8 +46,14 @@ pub(super) fn check(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Resu
                 return Err("pixels are shaded where a surface is, and neither depth nor stencil is written");
             }
             let shade = draw.look.shade;
-            let asked = shade.lights.iter().filter(|light| light.is_some()).count();
-            if shade.each && marked.count_ones() as usize != asked {
+            #[expect(clippy::cast_precision_loss, reason = "f32 holds whole numbers to 16 million")]
+            let shaded = |place: usize, light: usize| draw.constant[place] == light as f32;
+            let unmarked = |place: usize| {
+                let mut counted = plan.draws().filter(|(_, of)| matches!(of.set, DrawSet::Volumes(_)));
+                marked & 1 << place == 0 && counted.any(|(_, of)| of.light.is_some_and(|light| shaded(place, light)))
+            };
+            let lights = shade.lights.iter().filter(|light| light.is_some()).count();
+            if shade.each && (marked == 0 || marked >> lights != 0 || (0..lights).any(unmarked)) {
                 return Err("it asks for bits of lights that left none");
             }
             state.direct = true;
