@@ -28,10 +28,10 @@ pub(super) fn check(plan: &FramePlan, draw: &Draw, state: &mut Progress) -> Resu
             let bit = draw.constant[0] * 255.0;
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is asked whether it is one")]
             let whole = bit.round() as u8;
-            let marked = state.geometry.ok_or("it marks surfaces that were not kept")?;
             if draw.program != Program::MarkDark && draw.state.color.is_none() {
                 return Ok(());
             }
+            let marked = state.geometry.ok_or("it marks surfaces that were not kept")?;
             if draw.program != Program::MarkDark || writes_stencil || (bit - f32::from(whole)).abs() > 1e-3 {
                 return Err("lights leave a bit each where their shadow is, and nothing else");
             }
