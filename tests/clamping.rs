@@ -50,6 +50,7 @@ fn pieces_are_right_by_exact_rays_and_alike_by_every_technique() {
             assert_exact(&scene, &settings);
             let plan = stage.shoot(&Settings { show: Show::Stencil, ..settings }, &scene).plan;
             cut += pieces(&plan.volumes);
+            assert_eq!(plan.casters().count(), 5, "a caster's pieces are one volume to the reader");
             stage.stencil()
         });
         let surfaces = stage.shoot(&Settings { show: Show::Shadow, ..view(eye, Technique::ZFail) }, &scene).image;

@@ -542,6 +542,12 @@ impl FramePlan {
         if self.draws().any(|(_, draw)| verdict(draw)) { batched } else { self.budget }
     }
 
+    /// The volumes, each with its pieces: a caster's in one light and view is one however it is cut.
+    pub fn casters(&self) -> impl Iterator<Item = &[VolumePlan]> {
+        let of = |volume: &VolumePlan| (volume.view, volume.instance, volume.light);
+        self.volumes.chunk_by(move |a, b| a.closed && b.start.is_some() && of(a) == of(b))
+    }
+
     /// What bounds a light in depth, where that is marked in the stencil.
     #[must_use]
     pub fn depth_bounds(&self, light: usize) -> Option<&Enclosure> {

@@ -233,7 +233,7 @@ impl Report {
 /// The volumes of the eye's own view, gathered by light, method and reason.
 fn volumes(scene: &Scene, plan: &FramePlan) -> Vec<LightReport> {
     let mut lights: BTreeMap<usize, BTreeMap<(Method, Reason), usize>> = BTreeMap::new();
-    for volume in plan.volumes.iter().filter(|volume| volume.view == 0) {
+    for volume in plan.casters().filter_map(<[_]>::first).filter(|volume| volume.view == 0) {
         *lights.entry(volume.light).or_default().entry((volume.method, volume.reason)).or_default() += 1;
     }
     lights
@@ -254,8 +254,9 @@ fn volumes(scene: &Scene, plan: &FramePlan) -> Vec<LightReport> {
 #[must_use]
 pub fn casters(scene: &Scene, plan: &FramePlan) -> Vec<CasterReport> {
     let names: Vec<_> = scene.instances().map(|(_, node, _)| node.name.as_str()).collect();
-    let of_scene = plan.volumes.iter().filter(|volume| volume.view == 0 && volume.light < scene.lights.len());
-    of_scene
+    let volumes = plan.casters().filter_map(<[_]>::first);
+    volumes
+        .filter(|volume| volume.view == 0 && volume.light < scene.lights.len())
         .map(|volume| CasterReport {
             caster: names.get(volume.instance).copied().unwrap_or_default().into(),
             light: volume.light,

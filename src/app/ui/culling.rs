@@ -49,8 +49,8 @@ pub fn culling(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
 fn table(ui: &mut Ui, desk: &Desk<'_>, view: &View<'_>) {
     let (Some(scene), Some(plan)) = (view.scene, view.plan) else { return };
     let light = desk.settings.light;
-    let of_light = || plan.volumes.iter().filter(move |volume| volume.view == 0 && volume.light == light);
-    let dropped = of_light().filter(|volume| volume.method == Method::Dropped).count();
+    let of_light = || plan.casters().filter(move |pieces| pieces[0].view == 0 && pieces[0].light == light);
+    let dropped = of_light().filter(|pieces| pieces[0].method == Method::Dropped).count();
     let name = scene.lights.get(light).map_or("", |light| light.name.as_str());
     explain(ui, format!("Light {light}, {name}: {} casters, {dropped} of them left out.", of_light().count()));
     let nodes: Vec<_> = scene.instances().map(|(_, node, _)| node.name.as_str()).collect();
@@ -58,20 +58,22 @@ fn table(ui: &mut Ui, desk: &Desk<'_>, view: &View<'_>) {
     let table = egui::ScrollArea::vertical().id_salt("casters").max_height(220.0).min_scrolled_height(220.0);
     table.auto_shrink([false, true]).show(ui, |ui| {
         egui::Grid::new("casters").num_columns(3).striped(true).spacing(vec2(8.0, 2.0)).show(ui, |ui| {
-            for volume in of_light() {
-                row(ui, nodes.get(volume.instance).copied().unwrap_or(""), volume);
+            for pieces in of_light() {
+                row(ui, nodes.get(pieces[0].instance).copied().unwrap_or(""), pieces);
                 ui.end_row();
             }
         });
     });
 }
 
-fn row(ui: &mut Ui, name: &str, volume: &VolumePlan) {
+fn row(ui: &mut Ui, name: &str, pieces: &[VolumePlan]) {
+    let volume = &pieces[0];
     let color = if volume.method == Method::Dropped { style::WEAK } else { style::TEXT };
     let case = volume.case.map_or_else(|| "-".to_owned(), |case| case.number().to_string());
     let words = volume.case.map_or("no case: it is not counted", |case| case.words());
     ui.label(RichText::new(case).monospace().color(color)).on_hover_text(words);
-    let tip = format!("{name}: {}", volume.reason.words());
+    let cut = if pieces.len() > 1 { format!(", in {} pieces", pieces.len()) } else { String::new() };
+    let tip = format!("{name}: {}{cut}", volume.reason.words());
     ui.label(RichText::new(volume.method.words()).color(color)).on_hover_text(&tip);
     ui.add(egui::Label::new(RichText::new(name).color(color)).truncate()).on_hover_text(&tip);
 }

@@ -90,7 +90,13 @@ pub fn numbers(ui: &mut Ui, desk: &mut Desk<'_>, view: &View<'_>) {
         cell(ui, "Triangles", thousands(latest.triangles), style::WEAK, "Triangles of all draws");
         ui.end_row();
         cell(ui, "Frame", median(|frame| frame.interval_ms), style::TEXT, "From one frame to the next; median");
-        cell(ui, "Volumes", thousands(u64::from(latest.volumes)), style::WEAK, "Shadow volumes counted");
+        cell(
+            ui,
+            "Volumes",
+            thousands(u64::from(latest.volumes)),
+            style::WEAK,
+            "Shadow volumes counted, and pieces of those that are clamped",
+        );
         ui.end_row();
         ui.label("");
         ui.label("");
